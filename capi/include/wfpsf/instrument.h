@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file instrument.h
+ * Instruments: the published figures of a telescope and its detectors, compiled in.
+ *
+ * Known: "wfirst-afta-c5", the paper's (WFIRST-AFTA Cycle 5, July 2015).
+ * Thread-safety: an instrument is immutable; every function here is thread-safe.
+ */
+#ifndef WFPSF_INSTRUMENT_H
+#define WFPSF_INSTRUMENT_H
+
+#include <wfpsf/status.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct wfpsf_instrument wfpsf_instrument;
+
+/** Which curve the limits and effective wavelength of a band are taken from. */
+enum {
+    /** The tabulated throughput: first and last zero; mean of the piecewise linear curve. */
+    WFPSF_BAND_TABULATED = 1,
+    /** The same table thinned as GalSim 1.3.0 does: the figures of the paper's Table 1. */
+    WFPSF_BAND_PAPER = 2
+};
+
+/**
+ * An instrument by name.
+ *
+ * Given:    name  "wfirst-afta-c5"
+ * Returned: out   the handle; NULL on failure
+ * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME, ERROR_NO_MEMORY
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_instrument_create(const char *name, wfpsf_instrument **out);
+
+/** Frees an instrument; NULL is allowed. */
+WFPSF_EXPORT void wfpsf_instrument_destroy(wfpsf_instrument *instrument);
+
+/**
+ * A constant by name, such as "diameter" (m) or "pixel_scale" (arcsec).
+ *
+ * Returned: value, unit  unit is a static string, may be asked for with NULL
+ * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_instrument_constant(const wfpsf_instrument *instrument,
+                                                    const char *name, double *value,
+                                                    const char **unit);
+
+/**
+ * The name of the index-th constant, or of the index-th band in order of wavelength; a static
+ * string, NULL when the index is past the last one or the handle is NULL.
+ */
+WFPSF_EXPORT const char *wfpsf_instrument_constant_name(const wfpsf_instrument *instrument,
+                                                        int64_t index);
+WFPSF_EXPORT const char *wfpsf_instrument_band_name(const wfpsf_instrument *instrument,
+                                                    int64_t index);
+
+/**
+ * Limits and effective (throughput-weighted mean) wavelength of a band (paper, Table 1).
+ *
+ * Given:    band  such as "J129"
+ *           rule  WFPSF_BAND_*
+ * Returned: blue_nm, red_nm, effective_nm  any may be NULL
+ * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME, ERROR_ARGUMENT
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_instrument_band(const wfpsf_instrument *instrument,
+                                                const char *band, int32_t rule, double *blue_nm,
+                                                double *red_nm, double *effective_nm);
+
+/**
+ * Throughput of a band, linear between tabulated points, zero outside.
+ *
+ * Given:    count          of wavelengths, >= 0
+ *           wavelength_nm  finite
+ * Returned: throughput     dimensionless, count numbers
+ * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME, ERROR_SIZE, ERROR_NOT_FINITE
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_instrument_throughput(const wfpsf_instrument *instrument,
+                                                      const char *band, int64_t count,
+                                                      const double *wavelength_nm,
+                                                      double *throughput);
+
+/**
+ * Aberrations at the centre of a detector.
+ *
+ * Given:    sca           1..n_sca
+ *           capacity      numbers that `coefficients` has room for, >= 0
+ * Returned: coefficients  Noll order from j = 1, waves rms over the full circle at the constant
+ *                         "zemax_wavelength"; the first min(capacity, count)
+ *           count         how many there are; may be NULL
+ * Status:   ERROR_NULL, ERROR_RANGE, ERROR_SIZE
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_instrument_zernikes(const wfpsf_instrument *instrument, int32_t sca,
+                                                    int64_t capacity, double *coefficients,
+                                                    int64_t *count);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

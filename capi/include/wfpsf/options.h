@@ -1,0 +1,130 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file options.h
+ * Options: typed values by pinned key, with defaults and bounds that can be asked for.
+ *
+ * Wherever a function takes a const wfpsf_options *, NULL means the defaults.
+ * Thread-safety: an options handle is mutable; callers that share one lock it themselves.
+ */
+#ifndef WFPSF_OPTIONS_H
+#define WFPSF_OPTIONS_H
+
+#include <math.h>
+
+#include <wfpsf/status.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct wfpsf_options wfpsf_options;
+
+/** Stands for "chosen by the library" in the list below: a quiet NaN. */
+#define WFPSF_AUTOMATIC NAN
+
+/** Kinds of option values. */
+enum { WFPSF_OPTION_REAL = 1, WFPSF_OPTION_INTEGER = 2 };
+
+/**
+ * X(NAME, key, KIND, default, smallest, largest, text). Keys are pinned and gapped.
+ * A default of WFPSF_AUTOMATIC stands for "chosen by the library".
+ */
+#define WFPSF_OPTION_LIST(X)                                                                       \
+    X(EPS, 100, REAL, 1e-6, 1e-12, 0.1,                                                            \
+      "largest error of any PSF pixel, in units of the stamp's peak pixel")                        \
+    X(STRUTS, 110, INTEGER, 1, 0, 1,                                                               \
+      "1: the pupil with its struts; 0: the bare annulus of diameter and obscuration")             \
+    X(PSF_RADIUS, 120, REAL, 16, 1, 512,                                                           \
+      "half size of the field that a PSF makes in advance, native pixels")                         \
+    X(PISTON_TILT, 130, INTEGER, 0, 0, 1,                                                          \
+      "1: keep the instrument's Zernike terms 1 to 3, which are dropped otherwise")                \
+    X(FORCE, 200, INTEGER, 0, 0, 1,                                                                \
+      "1: apply an effect even to an image that records it as applied")                            \
+    X(IPC_FILL, 210, REAL, 0, -1.7976931348623157e308, 1.7976931348623157e308,                     \
+      "value of the border pixels under WFPSF_EDGE_FILL")                                          \
+    X(KERNEL_NEGATIVE, 220, INTEGER, 0, 0, 1,                                                      \
+      "1: taps outside [0, 1] are allowed, as correction kernels need")                            \
+    X(KERNEL_NORMALISE, 230, INTEGER, 0, 0, 1, "1: taps are divided by their sum")                 \
+    X(MOMENTS_TOLERANCE, 300, REAL, 1e-8, 1e-13, 1e-2,                                             \
+      "largest whitened error of centroid and moments")                                            \
+    X(MOMENTS_MAX_PASSES, 310, INTEGER, 200, 1, 100000, "most passes over the image")              \
+    X(MOMENTS_GUESS_X, 320, REAL, WFPSF_AUTOMATIC, -1e15, 1e15,                                    \
+      "first guess of the centroid, pixels of the image, first pixel at 0")                        \
+    X(MOMENTS_GUESS_Y, 330, REAL, WFPSF_AUTOMATIC, -1e15, 1e15, "first guess of the centroid")     \
+    X(MOMENTS_GUESS_SIGMA, 340, REAL, WFPSF_AUTOMATIC, 1e-3, 1e9,                                  \
+      "first guess of the size sigma, pixels of the image")                                        \
+    X(SIZE_TOTAL_FLUX, 400, REAL, WFPSF_AUTOMATIC, 2.2250738585072014e-308,                        \
+      1.7976931348623157e308, "flux that counts as 100%; automatic: the sum of all pixels")        \
+    X(SIZE_BANDWIDTH, 410, REAL, 0.25, 1e-3, 0.45,                                                 \
+      "highest frequency in the image, cycles per pixel of the image")                             \
+    X(FITS_OVERWRITE, 500, INTEGER, 0, 0, 1, "1: replace an existing file")
+
+#define WFPSF_OPTION_ENUM(name, key, kind, standard, smallest, largest, text)                      \
+    WFPSF_OPTION_##name = (key),
+enum { WFPSF_OPTION_LIST(WFPSF_OPTION_ENUM) };
+#undef WFPSF_OPTION_ENUM
+
+/**
+ * New options, all at their defaults.
+ *
+ * Returned: out     the handle; NULL on failure
+ * Status:   ERROR_NULL, ERROR_NO_MEMORY
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_options_create(wfpsf_options **out);
+
+/** Frees options; NULL is allowed. */
+WFPSF_EXPORT void wfpsf_options_destroy(wfpsf_options *options);
+
+/**
+ * Sets one option.
+ *
+ * Given:    key     WFPSF_OPTION_*
+ *           value   finite, within the option's bounds
+ * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME (no such key, or an option of the other kind),
+ *           ERROR_RANGE, ERROR_NOT_FINITE; the option then keeps its value
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_options_set_real(wfpsf_options *options, int32_t key, double value);
+WFPSF_EXPORT wfpsf_status wfpsf_options_set_integer(wfpsf_options *options, int32_t key,
+                                                    int64_t value);
+
+/**
+ * Reads one option, whatever its kind, as a double; NaN if it is left to the library.
+ *
+ * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_options_get(const wfpsf_options *options, int32_t key,
+                                            double *value);
+
+/**
+ * Gives one option its default again.
+ *
+ * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_options_reset(wfpsf_options *options, int32_t key);
+
+/**
+ * Extra aberrations, added to the instrument's own.
+ *
+ * Given:    count         0..231
+ *           coefficients  Noll order from j = 1, waves rms over the full circle of the primary's
+ *                         diameter, at the instrument's reference wavelength; copied
+ * Status:   ERROR_NULL, ERROR_RANGE, ERROR_NOT_FINITE
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_options_set_zernikes(wfpsf_options *options, int64_t count,
+                                                     const double *coefficients);
+
+/**
+ * What is known of an option: its name, kind, default (NaN: chosen by the library) and bounds.
+ * Any output may be NULL. Thread-safe.
+ *
+ * Status:   ERROR_UNKNOWN_NAME
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_option_describe(int32_t key, const char **name, const char **text,
+                                                int32_t *kind, double *standard, double *smallest,
+                                                double *largest);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

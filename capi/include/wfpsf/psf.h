@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file psf.h
+ * Effective PSFs: the diffraction image of a star, averaged over the native pixel.
+ *
+ * Amplitude at angle theta: integral over the lit pupil of exp(2 pi i W(u)) exp(2 pi i
+ * u.theta/lambda) d2u, W in waves from Noll's Zernike polynomials; x and y of the image along x and
+ * y of the pupil. Piston, tip and tilt of the instrument are dropped unless asked for, so (x, y) of
+ * a star is where the optical axis falls, not the centroid.
+ *
+ * Thread-safety: a PSF is immutable; many threads may draw from one, each into its own image.
+ */
+#ifndef WFPSF_PSF_H
+#define WFPSF_PSF_H
+
+#include <wfpsf/image.h>
+#include <wfpsf/instrument.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct wfpsf_psf wfpsf_psf;
+
+/** X(NAME, key, text): what can be asked of a PSF. */
+#define WFPSF_PSF_PROPERTY_LIST(X)                                                                 \
+    X(WAVELENGTH_NM, 10, "wavelength, nm")                                                         \
+    X(PIXEL_SCALE_ARCSEC, 20, "native pixel, arcsec")                                              \
+    X(ERROR_ESTIMATE, 30, "numerical error of any pixel, in units of the peak pixel")              \
+    X(MODEL_ERROR, 40, "error of the pupil's geometry against the published mask, same units")     \
+    X(PEAK, 50, "largest fraction of the light that one native pixel receives")                    \
+    X(NODES, 60, "quadrature nodes, or pixels of the mask")                                        \
+    X(GRID_SIZE, 70, "side of the focal grid")                                                     \
+    X(GRID_STEP_ARCSEC, 80, "step of the focal grid, arcsec")                                      \
+    X(RADIUS, 90, "half size of the field made in advance, native pixels")                         \
+    X(LIT_AREA_M2, 100, "lit area of the pupil, m^2")
+
+#define WFPSF_PSF_PROPERTY_ENUM(name, key, text) WFPSF_PSF_##name = (key),
+enum { WFPSF_PSF_PROPERTY_LIST(WFPSF_PSF_PROPERTY_ENUM) };
+#undef WFPSF_PSF_PROPERTY_ENUM
+
+/**
+ * The monochromatic effective PSF at the centre of a detector.
+ *
+ * Given:    instrument     may be freed afterwards
+ *           sca            1..18
+ *           wavelength_nm  100..100000
+ *           options        EPS, STRUTS, PSF_RADIUS, PISTON_TILT and extra Zernikes
+ * Returned: out            the handle; NULL on failure
+ * Status:   ERROR_NULL, ERROR_RANGE, ERROR_NOT_FINITE, ERROR_TOLERANCE, ERROR_NO_MEMORY;
+ *           WARNING_NOT_CERTIFIED if the error estimate stays above EPS
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_psf_create(const wfpsf_instrument *instrument, int32_t sca,
+                                           double wavelength_nm, const wfpsf_options *options,
+                                           wfpsf_psf **out);
+
+/**
+ * The same with the pupil given as a mask: every pixel a square of that transmission, with the
+ * phase of its centre. Takes a second for a mask of 4096 x 4096.
+ *
+ * Given:    mask            transmissions in [0, 1]; copied
+ *           mask_scale_m    side of a mask pixel, metres, > 0
+ *           axis_x, axis_y  position of the optical axis in the mask, first pixel at (0, 0)
+ *           others          as for wfpsf_psf_create(); STRUTS does not matter
+ * Returned: out             the handle; NULL on failure
+ * Status:   as for wfpsf_psf_create(), ERROR_ARGUMENT if nothing is lit
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_psf_create_from_mask(const wfpsf_instrument *instrument,
+                                                     const wfpsf_image *mask, double mask_scale_m,
+                                                     double axis_x, double axis_y, int32_t sca,
+                                                     double wavelength_nm,
+                                                     const wfpsf_options *options, wfpsf_psf **out);
+
+/** Frees a PSF; NULL is allowed. */
+WFPSF_EXPORT void wfpsf_psf_destroy(wfpsf_psf *psf);
+
+/**
+ * Draws one star, overwriting the image.
+ *
+ * Each pixel gets flux / N^2 times the fraction of the light that a native pixel centred there
+ * receives, N the image's oversampling: the sum over an infinite image is the flux at any N. The
+ * image's record becomes: the PSF's pixel scale, pixel response applied. Any size, odd or even; a
+ * stamp that reaches beyond the radius made in advance works, but takes a new field each time.
+ *
+ * Given:    x, y   position of the star, pixels of the image, the first pixel's centre at (0, 0)
+ *           flux   finite
+ * Returned: image  pixels and record
+ * Status:   ERROR_NULL, ERROR_NOT_FINITE, ERROR_RANGE (star more than 4096 native pixels away)
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_psf_draw(const wfpsf_psf *psf, double x, double y, double flux,
+                                         wfpsf_image *image);
+
+/**
+ * One property of a PSF.
+ *
+ * Given:    key    WFPSF_PSF_*
+ * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_psf_get(const wfpsf_psf *psf, int32_t key, double *value);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,19 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/**
+ * @file wfpsf.h
+ * Everything: WFIRST/Roman PSFs, interpixel capacitance, moments.
+ */
+#ifndef WFPSF_H
+#define WFPSF_H
+
+#include <wfpsf/image.h>
+#include <wfpsf/instrument.h>
+#include <wfpsf/ipc.h>
+#include <wfpsf/moments.h>
+#include <wfpsf/options.h>
+#include <wfpsf/psf.h>
+#include <wfpsf/size.h>
+#include <wfpsf/status.h>
+#include <wfpsf/version.h>
+
+#endif

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "funnel.hpp"
+#include "handles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+using namespace wfpsf;
+
+wfpsf_status wfpsf_instrument_create(const char *name, wfpsf_instrument **out) {
+    return guarded([&] {
+        require_pointer(out, "out");
+        *out = nullptr;
+        require_pointer(name, "name");
+        *out = new wfpsf_instrument{Instrument::get(name)};
+    });
+}
+
+void wfpsf_instrument_destroy(wfpsf_instrument *instrument) {
+    delete instrument;
+}
+
+wfpsf_status wfpsf_instrument_constant(const wfpsf_instrument *instrument, const char *name,
+                                       double *value, const char **unit) {
+    return guarded([&] {
+        require_pointer(instrument, "instrument");
+        require_pointer(name, "name");
+        require_pointer(value, "value");
+        const Constant &constant = instrument->instrument.constant(name);
+        *value = constant.value;
+        if (unit)
+            *unit = constant.unit;
+    });
+}
+
+namespace {
+
+template <class List> const char *name_at(const List &list, int64_t index) {
+    if (index < 0 || index >= static_cast<int64_t>(list.size()))
+        return nullptr;
+    return list[static_cast<size_t>(index)].name;
+}
+
+} // namespace
+
+const char *wfpsf_instrument_constant_name(const wfpsf_instrument *instrument, int64_t index) {
+    return instrument ? name_at(instrument->instrument.constants, index) : nullptr;
+}
+
+const char *wfpsf_instrument_band_name(const wfpsf_instrument *instrument, int64_t index) {
+    return instrument ? name_at(instrument->instrument.bands, index) : nullptr;
+}
+
+wfpsf_status wfpsf_instrument_band(const wfpsf_instrument *instrument, const char *band,
+                                   int32_t rule, double *blue_nm, double *red_nm,
+                                   double *effective_nm) {
+    return guarded([&] {
+        require_pointer(instrument, "instrument");
+        require_pointer(band, "band");
+        const Band &b = instrument->instrument.band(band);
+        if (rule != WFPSF_BAND_TABULATED && rule != WFPSF_BAND_PAPER)
+            fail(WFPSF_ERROR_ARGUMENT, "rule = %d: must be WFPSF_BAND_TABULATED or _PAPER", rule);
+        const BandWavelengths w =
+            rule == WFPSF_BAND_PAPER ? thinned_wavelengths(b) : tabulated_wavelengths(b);
+        if (blue_nm)
+            *blue_nm = w.blue_nm;
+        if (red_nm)
+            *red_nm = w.red_nm;
+        if (effective_nm)
+            *effective_nm = w.effective_nm;
+    });
+}
+
+wfpsf_status wfpsf_instrument_throughput(const wfpsf_instrument *instrument, const char *band,
+                                         int64_t count, const double *wavelength_nm,
+                                         double *throughput) {
+    return guarded([&] {
+        require_pointer(instrument, "instrument");
+        require_pointer(band, "band");
+        if (count < 0)
+            fail(WFPSF_ERROR_SIZE, "count = %lld: must be >= 0", static_cast<long long>(count));
+        const Band &b = instrument->instrument.band(band);
+        if (count > 0) {
+            require_pointer(wavelength_nm, "wavelength_nm");
+            require_pointer(throughput, "throughput");
+        }
+        // Nothing is written unless all is well.
+        for (int64_t i = 0; i < count; ++i)
+            if (!std::isfinite(wavelength_nm[i]))
+                fail(WFPSF_ERROR_NOT_FINITE, "wavelength_nm[%lld] = %g: must be finite",
+                     static_cast<long long>(i), wavelength_nm[i]);
+        for (int64_t i = 0; i < count; ++i)
+            throughput[i] = wfpsf::throughput(b, wavelength_nm[i]);
+    });
+}
+
+wfpsf_status wfpsf_instrument_zernikes(const wfpsf_instrument *instrument, int32_t sca,
+                                       int64_t capacity, double *coefficients, int64_t *count) {
+    return guarded([&] {
+        require_pointer(instrument, "instrument");
+        if (capacity < 0)
+            fail(WFPSF_ERROR_SIZE, "capacity = %lld: must be >= 0",
+                 static_cast<long long>(capacity));
+        if (capacity > 0)
+            require_pointer(coefficients, "coefficients");
+        const auto zernikes = instrument->instrument.zernikes(sca);
+        const auto n = std::min<size_t>(zernikes.size(), static_cast<size_t>(capacity));
+        std::copy_n(zernikes.begin(), n, coefficients);
+        if (count)
+            *count = static_cast<int64_t>(zernikes.size());
+    });
+}

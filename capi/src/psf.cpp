@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "funnel.hpp"
+#include "handles.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <variant>
+
+using namespace wfpsf;
+
+namespace {
+
+constexpr double arcsec = std::numbers::pi / 180 / 3600;
+
+// The instrument's own aberrations and the caller's, in waves at the wavelength asked for.
+Wavefront make_wavefront(const Instrument &instrument, int32_t sca, double wavelength_nm,
+                         const wfpsf_options *options) {
+    const auto own = instrument.zernikes(sca);
+    const std::vector<double> &extra = extra_zernikes(options);
+    std::vector<double> coefficients(std::max(own.size(), extra.size()));
+    std::copy(own.begin(), own.end(), coefficients.begin());
+    if (!flag(options, WFPSF_OPTION_PISTON_TILT))
+        std::fill_n(coefficients.begin(), std::min<size_t>(3, coefficients.size()), 0.0);
+    for (size_t i = 0; i < extra.size(); ++i)
+        coefficients[i] += extra[i];
+    for (double &a : coefficients)
+        a *= instrument.reference_wavelength_nm() / wavelength_nm;
+    return Wavefront(coefficients, instrument.diameter_m() / 2);
+}
+
+// What both ways to make a PSF share; the aperture is made only when the arguments are sound.
+template <class MakeAperture>
+wfpsf_status create(const wfpsf_instrument *handle, int32_t sca, double wavelength_nm,
+                    const wfpsf_options *options, wfpsf_psf **out, MakeAperture make) {
+    const Instrument &instrument = handle->instrument;
+    if (!(wavelength_nm >= 100 && wavelength_nm <= 1e5))
+        fail(WFPSF_ERROR_RANGE, "wavelength_nm = %g: must be 100..100000", wavelength_nm);
+    const Wavefront wavefront = make_wavefront(instrument, sca, wavelength_nm, options);
+    const PsfSettings settings{.wavelength = wavelength_nm * 1e-9,
+                               .pixel_scale = instrument.pixel_scale_arcsec() * arcsec,
+                               .eps = option(options, WFPSF_OPTION_EPS),
+                               .radius = option(options, WFPSF_OPTION_PSF_RADIUS)};
+    *out = new wfpsf_psf{Psf(make(instrument), wavefront, settings)};
+    const double estimate = (*out)->psf.error_estimate();
+    if (estimate <= settings.eps)
+        return WFPSF_OK;
+    char line[128];
+    std::snprintf(line, sizeof line, "EPS = %g: the error estimate is %g", settings.eps, estimate);
+    return record_error(WFPSF_WARNING_NOT_CERTIFIED, line);
+}
+
+} // namespace
+
+wfpsf_status wfpsf_psf_create(const wfpsf_instrument *instrument, int32_t sca, double wavelength_nm,
+                              const wfpsf_options *options, wfpsf_psf **out) {
+    return guarded([&] {
+        require_pointer(out, "out");
+        *out = nullptr;
+        require_pointer(instrument, "instrument");
+        return create(instrument, sca, wavelength_nm, options, out, [&](const Instrument &i) {
+            return flag(options, WFPSF_OPTION_STRUTS) ? make_aperture(i.common_pupil)
+                                                      : make_aperture(i.annular_pupil());
+        });
+    });
+}
+
+wfpsf_status wfpsf_psf_create_from_mask(const wfpsf_instrument *instrument, const wfpsf_image *mask,
+                                        double mask_scale_m, double axis_x, double axis_y,
+                                        int32_t sca, double wavelength_nm,
+                                        const wfpsf_options *options, wfpsf_psf **out) {
+    return guarded([&] {
+        require_pointer(out, "out");
+        *out = nullptr;
+        require_pointer(instrument, "instrument");
+        require_pointer(mask, "mask");
+        if (!(mask_scale_m > 0 && mask_scale_m <= 1))
+            fail(WFPSF_ERROR_RANGE, "mask_scale_m = %g: must be above 0, up to 1", mask_scale_m);
+        for (const auto &[name, value] : {std::pair("axis_x", axis_x), std::pair("axis_y", axis_y)})
+            if (!(std::abs(value) <= 1e6))
+                fail(WFPSF_ERROR_RANGE, "%s = %g: must be -1e6..1e6", name, value);
+        return create(instrument, sca, wavelength_nm, options, out, [&](const Instrument &) {
+            return std::visit(
+                [&](auto pixels) {
+                    Plane<double> copy(pixels.nx, pixels.ny);
+                    for (int64_t y = 0; y < pixels.ny; ++y)
+                        for (int64_t x = 0; x < pixels.nx; ++x)
+                            copy(x, y) = static_cast<double>(pixels(x, y));
+                    return make_aperture(std::as_const(copy).view(), mask_scale_m, axis_x, axis_y);
+                },
+                mask->image.pixels());
+        });
+    });
+}
+
+void wfpsf_psf_destroy(wfpsf_psf *psf) {
+    delete psf;
+}
+
+wfpsf_status wfpsf_psf_draw(const wfpsf_psf *psf, double x, double y, double flux,
+                            wfpsf_image *image) {
+    return guarded([&] {
+        require_pointer(psf, "psf");
+        require_pointer(image, "image");
+        for (const auto &[name, value] :
+             {std::pair("x", x), std::pair("y", y), std::pair("flux", flux)})
+            if (!std::isfinite(value))
+                fail(WFPSF_ERROR_NOT_FINITE, "%s = %g: must be finite", name, value);
+        std::visit(
+            [&](auto pixels) { psf->psf.draw(x, y, flux, image->image.oversampling(), pixels); },
+            image->image.pixels());
+        image->image.set_pixel_scale_arcsec(psf->psf.settings().pixel_scale / arcsec);
+        image->image.set_applied(0);
+        image->image.record_applied(Effect::pixel_response);
+    });
+}
+
+wfpsf_status wfpsf_psf_get(const wfpsf_psf *psf, int32_t key, double *value) {
+    return guarded([&] {
+        require_pointer(psf, "psf");
+        require_pointer(value, "value");
+        const Psf &p = psf->psf;
+        switch (key) {
+        case WFPSF_PSF_WAVELENGTH_NM:
+            *value = p.settings().wavelength * 1e9;
+            return;
+        case WFPSF_PSF_PIXEL_SCALE_ARCSEC:
+            *value = p.settings().pixel_scale / arcsec;
+            return;
+        case WFPSF_PSF_ERROR_ESTIMATE:
+            *value = p.error_estimate();
+            return;
+        case WFPSF_PSF_MODEL_ERROR:
+            *value = p.model_error();
+            return;
+        case WFPSF_PSF_PEAK:
+            *value = p.peak();
+            return;
+        case WFPSF_PSF_NODES:
+            *value = static_cast<double>(p.nodes());
+            return;
+        case WFPSF_PSF_GRID_SIZE:
+            *value = static_cast<double>(p.grid_size());
+            return;
+        case WFPSF_PSF_GRID_STEP_ARCSEC:
+            *value = p.grid_step() / arcsec;
+            return;
+        case WFPSF_PSF_RADIUS:
+            *value = p.settings().radius;
+            return;
+        case WFPSF_PSF_LIT_AREA_M2:
+            *value = p.lit_area();
+            return;
+        default:
+            fail(WFPSF_ERROR_UNKNOWN_NAME, "key = %d: a PSF has no property of that key", key);
+        }
+    });
+}

@@ -1,0 +1,25 @@
+# What an installed wfpsf is: the shared library, its headers, the CMake package and wfpsf.pc.
+# Consumers need nothing else; what the library stands on is linked into it or by it.
+include(CMakePackageConfigHelpers)
+
+install(TARGETS wfpsf EXPORT wfpsf-targets
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/capi/include/wfpsf
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
+install(FILES ${PROJECT_BINARY_DIR}/capi/include/wfpsf/version.h
+  DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/wfpsf)
+
+set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/wfpsf)
+install(EXPORT wfpsf-targets NAMESPACE wfpsf:: FILE wfpsf-config.cmake
+  DESTINATION ${package_folder})
+# Until 1.0 a minor version may break the interface.
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/wfpsf-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/wfpsf-config-version.cmake DESTINATION ${package_folder})
+
+# The prefix is found from the .pc file's own place, so that the tree can be moved.
+cmake_path(SET pkgconfig_folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
+cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX
+  BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX}/${pkgconfig_folder} OUTPUT_VARIABLE pkgconfig_prefix)
+configure_file(${PROJECT_SOURCE_DIR}/cmake/wfpsf.pc.in ${PROJECT_BINARY_DIR}/wfpsf.pc @ONLY)
+install(FILES ${PROJECT_BINARY_DIR}/wfpsf.pc DESTINATION ${pkgconfig_folder})

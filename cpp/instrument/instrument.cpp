@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "instrument/instrument.hpp"
+
+#include "error/error.hpp"
+#include "instrument/wfirst_afta_c5/tables.hpp"
+
+#include <string>
+
+namespace wfpsf {
+namespace {
+
+template <class T>
+const T &find_by_name(std::span<const T> items, std::string_view name, const char *argument) {
+    for (const T &item : items)
+        if (item.name == name)
+            return item;
+    std::string known;
+    for (const T &item : items)
+        known.append(known.empty() ? "" : ", ").append(item.name);
+    const std::string shown(name.substr(0, 64)); // leaves room for the list
+    fail(WFPSF_ERROR_UNKNOWN_NAME, "%s = \"%s\": must be one of %s", argument, shown.c_str(),
+         known.c_str());
+}
+
+void check_sca(int sca, int count) {
+    if (sca < 1 || sca > count)
+        fail(WFPSF_ERROR_RANGE, "sca = %d: must be 1..%d", sca, count);
+}
+
+} // namespace
+
+std::span<const Instrument> instruments() {
+    static const Instrument all[] = {wfirst_afta_c5::instrument()};
+    return all;
+}
+
+const Instrument &Instrument::get(std::string_view instrument_name) {
+    return find_by_name(instruments(), instrument_name, "instrument");
+}
+
+const Constant &Instrument::constant(std::string_view constant_name) const {
+    return find_by_name(constants, constant_name, "constant");
+}
+
+const Band &Instrument::band(std::string_view band_name) const {
+    return find_by_name(bands, band_name, "band");
+}
+
+int Instrument::sca_count() const {
+    return static_cast<int>(constant("n_sca").value);
+}
+
+std::span<const FieldPoint> Instrument::field_points(int sca) const {
+    check_sca(sca, sca_count());
+    const size_t per_sca = all_field_points.size() / static_cast<size_t>(sca_count());
+    return all_field_points.subspan(static_cast<size_t>(sca - 1) * per_sca, per_sca);
+}
+
+std::span<const double> Instrument::zernikes(int sca) const {
+    return field_points(sca).front().zernikes;
+}
+
+const SegmentedPupil &Instrument::pupil(int sca, std::string_view band_name) const {
+    check_sca(sca, sca_count());
+    band(band_name);
+    return common_pupil;
+}
+
+AnnularPupil Instrument::annular_pupil() const {
+    const double radius = diameter_m() / 2;
+    return {radius, radius * obscuration()};
+}
+
+} // namespace wfpsf

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The instruments whose figures are compiled in.
+#pragma once
+
+#include "instrument/band.hpp"
+#include "instrument/pupil.hpp"
+
+#include <array>
+#include <span>
+#include <string_view>
+
+namespace wfpsf {
+
+struct Constant {
+    const char *name;
+    double value;
+    const char *unit;
+    const char *meaning;
+};
+
+// Wavefront error at one position of a detector (SCA). The first pixel's centre is (0, 0).
+struct FieldPoint {
+    double x_pix, y_pix;
+    // Noll j = 1, 2, ...: waves at the reference wavelength, unit rms over the full circle of the
+    // instrument's diameter about the optical axis.
+    std::span<const double> zernikes;
+};
+
+// Taps of a 3 x 3 kernel in out(p) = sum_d K(d) in(p - d): K(dx, dy) = taps[3 (dy + 1) + dx + 1].
+using IpcTaps = std::array<double, 9>;
+
+struct Instrument {
+    const char *name;
+    std::span<const Constant> constants;
+    std::span<const Band> bands;
+    std::span<const FieldPoint> all_field_points; // by SCA, as many on each, its centre first
+    SegmentedPupil common_pupil;                  // of all SCAs and bands
+    IpcTaps ipc_kernel;                           // the detectors' nominal one
+
+    // An unknown name of an instrument, constant or band: WFPSF_ERROR_UNKNOWN_NAME. An SCA that
+    // does not exist: WFPSF_ERROR_RANGE.
+    static const Instrument &get(std::string_view instrument_name);
+    const Constant &constant(std::string_view constant_name) const;
+    const Band &band(std::string_view band_name) const;
+
+    int sca_count() const; // SCAs are numbered from 1
+    std::span<const FieldPoint> field_points(int sca) const;
+    std::span<const double> zernikes(int sca) const; // at the SCA's centre
+
+    // With struts, as an SCA sees it through the filter of a band; and without.
+    const SegmentedPupil &pupil(int sca, std::string_view band_name) const;
+    AnnularPupil annular_pupil() const;
+
+    double diameter_m() const { return constant("diameter").value; }
+    double obscuration() const { return constant("obscuration").value; } // of the diameter
+    double pixel_scale_arcsec() const { return constant("pixel_scale").value; }
+    double reference_wavelength_nm() const { return constant("zemax_wavelength").value; }
+};
+
+// All of them.
+std::span<const Instrument> instruments();
+
+} // namespace wfpsf

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From pupil to focal plane: the diffracted amplitude
+//     A(theta) = integral over the lit pupil of exp(2 pi i W(u)) exp(2 pi i u . theta / lambda) d2u
+// on a square grid of angles. Two ways that share no code but the matrix product: areal quadrature
+// over a pupil given as geometry, and the matrix Fourier transform of a mask's square pixels.
+#pragma once
+
+#include "image/view.hpp"
+#include "instrument/pupil.hpp"
+#include "optics/pupil_nodes.hpp"
+#include "optics/wavefront.hpp"
+
+#include <complex>
+#include <memory>
+#include <vector>
+
+namespace wfpsf {
+
+// Angles (i - (size - 1) / 2) * step on both axes, radians.
+struct FocalGrid {
+    int64_t size;
+    double step;
+    double angle(int64_t i) const { return (static_cast<double>(i) - half()) * step; }
+    double half() const { return static_cast<double>(size - 1) / 2; }
+    double largest_angle() const { return half() * step; }
+};
+
+struct Amplitude {
+    Plane<std::complex<double>> value; // (x, y), m^2
+    int64_t nodes = 0;                 // quadrature nodes or mask pixels summed
+    // The largest error of |A|^2 in units of area^2: estimate of the numerical one, and what the
+    // pupil's description may be off the truth (the fit of a geometry, the pixels of a mask).
+    double error = 0, model_error = 0;
+};
+
+class Aperture {
+  public:
+    virtual ~Aperture() = default;
+
+    // Amplitude with |A|^2 good to about `eps` of area^2, the peak of the unaberrated PSF.
+    virtual Amplitude amplitude(const Wavefront &wavefront, double wavelength,
+                                const FocalGrid &grid, double eps) const = 0;
+
+    double area() const { return area_; }         // lit, m^2
+    double diameter() const { return diameter_; } // the larger extent along x or y, m
+
+  protected:
+    double area_ = 0, diameter_ = 0;
+};
+
+std::unique_ptr<const Aperture> make_aperture(const SegmentedPupil &pupil);
+std::unique_ptr<const Aperture> make_aperture(const AnnularPupil &pupil);
+
+// A mask of transmissions in [0, 1]; pixels are squares of `scale` metres, and pixel position
+// (axis_x, axis_y) is the optical axis. Keeps a copy of the mask's lit part.
+std::unique_ptr<const Aperture> make_aperture(View<const double> mask, double scale, double axis_x,
+                                              double axis_y);
+
+} // namespace wfpsf

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "optics/psf.hpp"
+
+#include "error/error.hpp"
+#include "optics/resample.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wfpsf {
+
+namespace {
+
+// The intensity holds no frequency above diameter / wavelength. Sampling it at twice Nyquist's rate
+// keeps the filters short.
+constexpr double bandwidth = 0.25; // cycles per sample
+
+constexpr double largest_reach = 4096; // native pixels
+
+} // namespace
+
+Psf::Psf(std::shared_ptr<const Aperture> aperture, const Wavefront &wavefront,
+         const PsfSettings &settings)
+    : aperture_(std::move(aperture)), wavefront_(wavefront), settings_(settings),
+      step_(bandwidth * settings.wavelength / aperture_->diameter()),
+      field_(make_field(settings.radius)) {}
+
+// All errors arise in units of the unaberrated peak before the pixel's average; eps counts in the
+// stamp's brightest pixel. Their ratio is guessed, and made up for where the guess was too good (an
+// aberrated wavefront): once more is the rule, several times for the hardest ones.
+Psf::Field Psf::make_field(double radius) const {
+    const double pixel = settings_.pixel_scale / settings_.wavelength;
+    const double ratio = 2 * (1 + 1.7 * aperture_->area() * pixel * pixel);
+    double tolerance = settings_.eps / ratio;
+    for (int attempt = 0;; ++attempt) {
+        Field field = make_field(radius, tolerance);
+        if (field.error <= settings_.eps || attempt == 4 || tolerance < 1e-15)
+            return field;
+        tolerance *= 0.7 * settings_.eps / field.error;
+    }
+}
+
+// `tolerance` in units of the unaberrated peak.
+Psf::Field Psf::make_field(double radius, double tolerance) const {
+    // The filters for the pixel's average and for the interpolation err along two axes each.
+    Field field(BandlimitedInterpolator(bandwidth, tolerance / 8));
+    const std::vector<double> pixel =
+        field.interpolator.averaging_filter(settings_.pixel_scale / step_);
+    const auto margin = static_cast<int64_t>(pixel.size()) / 2;
+    const auto reach = static_cast<int64_t>(std::ceil(radius * settings_.pixel_scale / step_)) +
+                       field.interpolator.half_width();
+    const FocalGrid grid{2 * (reach + margin) + 1, step_};
+    const Amplitude amplitude =
+        aperture_->amplitude(wavefront_, settings_.wavelength, grid, tolerance / 2);
+    Plane<double> intensity(grid.size, grid.size);
+    for (int64_t y = 0; y < grid.size; ++y)
+        for (int64_t x = 0; x < grid.size; ++x)
+            intensity(x, y) = std::norm(amplitude.value(x, y));
+
+    field.value = filter(intensity.view(), pixel);
+    field.nodes = amplitude.nodes;
+    // Fraction of the light in a pixel: its solid angle times |A|^2 / (area lambda^2).
+    const double wavelengths = settings_.pixel_scale / settings_.wavelength;
+    const double scale = wavelengths * wavelengths / aperture_->area();
+    for (int64_t y = 0; y < field.value.ny(); ++y)
+        for (int64_t x = 0; x < field.value.nx(); ++x) {
+            field.value(x, y) *= scale;
+            field.peak = std::max(field.peak, field.value(x, y));
+        }
+    // The unaberrated peak also bounds the integral of the spectrum that the filters' errors
+    // multiply. A stamp's brightest pixel may be half the largest possible one.
+    const double ratio = 2 * scale * aperture_->area() * aperture_->area() / field.peak;
+    field.error = ratio * (amplitude.error + 4 * field.interpolator.error());
+    field.model_error = ratio * amplitude.model_error;
+    return field;
+}
+
+template <class T>
+void Psf::draw(double x, double y, double flux, int64_t oversampling, View<T> out) const {
+    if (out.empty())
+        return;
+    const double reach = std::max({std::abs(x), std::abs(static_cast<double>(out.nx - 1) - x),
+                                   std::abs(y), std::abs(static_cast<double>(out.ny - 1) - y)}) /
+                         static_cast<double>(oversampling);
+    if (!(reach <= largest_reach))
+        fail(WFPSF_ERROR_RANGE,
+             "star at (%g, %g): farther than %g native pixels from a pixel of the image", x, y,
+             largest_reach);
+    if (reach > settings_.radius)
+        draw_from(make_field(reach), x, y, flux, oversampling, out);
+    else
+        draw_from(field_, x, y, flux, oversampling, out);
+}
+
+template <class T>
+void Psf::draw_from(const Field &field, double x, double y, double flux, int64_t oversampling,
+                    View<T> out) const {
+    const auto n = static_cast<double>(oversampling);
+
+    const double centre = static_cast<double>(field.value.nx() - 1) / 2;
+    const double samples = settings_.pixel_scale / (n * step_); // grid samples an image sample
+    const auto positions = [&](int64_t count, double star) {
+        std::vector<double> p(static_cast<size_t>(count));
+        for (size_t i = 0; i < p.size(); ++i)
+            p[i] = centre + (static_cast<double>(i) - star) * samples;
+        return p;
+    };
+    resample(field.value.view(), field.interpolator, positions(out.nx, x), positions(out.ny, y),
+             flux / (n * n), out);
+}
+
+template void Psf::draw(double, double, double, int64_t, View<float>) const;
+template void Psf::draw(double, double, double, int64_t, View<double>) const;
+
+} // namespace wfpsf

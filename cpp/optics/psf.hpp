@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The effective PSF: diffraction image of a point source, averaged over the native pixel, ready to
+// be sampled anywhere (section 4.1 of the paper; DESIGN: no folding, no image interpolant).
+#pragma once
+
+#include "image/view.hpp"
+#include "numerics/bandlimited.hpp"
+#include "optics/aperture.hpp"
+#include "optics/wavefront.hpp"
+
+#include <memory>
+
+namespace wfpsf {
+
+struct PsfSettings {
+    double wavelength;  // m
+    double pixel_scale; // native pixel, radians
+    double eps;         // largest error of any pixel, in units of the peak pixel
+    double radius;      // half size of the field made in advance, native pixels
+};
+
+// Immutable once made; draw() may be called from many threads.
+class Psf {
+  public:
+    Psf(std::shared_ptr<const Aperture> aperture, const Wavefront &wavefront,
+        const PsfSettings &settings);
+
+    // out(i, j) = flux * (fraction of the light that a native pixel centred there receives) / N^2,
+    // N = oversampling samples a native pixel, for a star at sample position (x, y). So the sum
+    // over an infinite image is the flux, at any N. A stamp that reaches beyond settings().radius
+    // gets a larger field of its own, at the cost of making it.
+    template <class T>
+    void draw(double x, double y, double flux, int64_t oversampling, View<T> out) const;
+
+    const PsfSettings &settings() const { return settings_; }
+    double lit_area() const { return aperture_->area(); } // m^2
+    int64_t nodes() const { return field_.nodes; }
+    int64_t grid_size() const { return field_.value.nx(); }
+    double grid_step() const { return step_; }             // radians
+    double error_estimate() const { return field_.error; } // numerical, of the peak pixel
+    double model_error() const {
+        return field_.model_error;
+    }                                           // of the pupil's description, likewise
+    double peak() const { return field_.peak; } // largest fraction of the light in one pixel
+
+  private:
+    struct Field {
+        explicit Field(const BandlimitedInterpolator &of) : interpolator(of) {}
+        BandlimitedInterpolator interpolator;
+        Plane<double> value; // fraction of the light in a native pixel centred on each grid point
+        int64_t nodes = 0;
+        double peak = 0, error = 0, model_error = 0;
+    };
+    Field make_field(double radius) const;
+    Field make_field(double radius, double tolerance) const;
+    template <class T>
+    void draw_from(const Field &field, double x, double y, double flux, int64_t oversampling,
+                   View<T> out) const;
+
+    std::shared_ptr<const Aperture> aperture_;
+    Wavefront wavefront_;
+    PsfSettings settings_;
+    double step_;
+    Field field_;
+};
+
+} // namespace wfpsf

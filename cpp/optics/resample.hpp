@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Samples of a band-limited image at other places than its own: two passes, one along each axis.
+#pragma once
+
+#include "image/view.hpp"
+#include "numerics/bandlimited.hpp"
+
+#include <vector>
+
+namespace wfpsf {
+
+// out(i, j) = scale * grid at position (x[i], y[j]), in grid samples. Every position must lie at
+// least interpolator.half_width() samples inside the grid.
+template <class T>
+void resample(View<const double> grid, const BandlimitedInterpolator &interpolator,
+              const std::vector<double> &x, const std::vector<double> &y, double scale,
+              View<T> out);
+
+// The grid filtered along both axes by a symmetric filter of 2m + 1 taps; smaller by m on each
+// side.
+Plane<double> filter(View<const double> grid, const std::vector<double> &taps);
+
+} // namespace wfpsf

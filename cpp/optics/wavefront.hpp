@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The aberrated wavefront as a sum of Noll's Zernike polynomials (Noll 1976, J. Opt. Soc. Am. 66,
+// 207; section 4.1 of the paper): Z_j has unit rms over the full circle, cos m theta for even j.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace wfpsf {
+
+// W(x, y) = sum_j a_j Z_j(x / radius, y / radius), in the unit of the coefficients (waves).
+class Wavefront {
+  public:
+    static constexpr int largest_j = 231; // radial order 20
+
+    // coefficients[j - 1] belongs to Z_j; j up to largest_j.
+    Wavefront(std::span<const double> coefficients, double radius);
+
+    double operator()(double x, double y) const;
+
+    // Never below the steepest slope |grad W| on the circle of the given radius (waves per metre).
+    double slope_bound() const { return slope_bound_; }
+
+  private:
+    // Per azimuthal order m: polynomials in r^2 that multiply r^m cos m theta and r^m sin m theta.
+    struct Order {
+        std::vector<double> cosine, sine;
+    };
+    std::vector<Order> orders_;
+    double radius_, slope_bound_ = 0;
+};
+
+} // namespace wfpsf
