@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <variant>
 
 namespace wfpsf {
@@ -58,7 +59,7 @@ FitsHdu hdu_of(const char *hdu) {
     const long number = std::strtol(hdu, &end, 10);
     if (end != hdu && *end == '\0' && number >= 0 && number < 100000)
         return {.number = static_cast<int>(number), .name = {}};
-    return {.number = 0, .name = hdu};
+    return {.number = {}, .name = hdu};
 }
 
 DitherConvention convention_of(int32_t convention) {
@@ -199,18 +200,10 @@ wfpsf_status wfpsf_image_read_fits(const char *path, const char *hdu, int32_t pi
         require_pointer(out, "out");
         *out = nullptr;
         require_pointer(path, "path");
-        const bool as_in_file = pixel_type == 0;
-        const PixelType wanted = as_in_file ? PixelType::float64 : pixel_type_of(pixel_type);
-        auto image = std::make_unique<wfpsf_image>(
-            wfpsf_image{hdu ? read_fits(path, hdu_of(hdu)) : read_fits(path)});
-        if (!as_in_file && image->image.type() != wanted) {
-            auto converted = std::make_unique<wfpsf_image>(
-                wfpsf_image{Image(wanted, image->image.nx(), image->image.ny())});
-            copy_pixels(image->image, converted->image);
-            copy_record(image->image, converted->image);
-            image = std::move(converted);
-        }
-        *out = image.release();
+        std::optional<PixelType> type;
+        if (pixel_type != 0)
+            type = pixel_type_of(pixel_type);
+        *out = new wfpsf_image{read_fits(path, hdu ? hdu_of(hdu) : FitsHdu{}, type)};
     });
 }
 

@@ -60,11 +60,12 @@ BandWavelengths tabulated_wavelengths(const Band &band) {
 std::vector<size_t> thinned_samples(const Band &band) {
     const double limit = thinning_loss * integral_nm(band);
     size_t first = 0, last = band.throughput.size() - 1;
-    for (double cut = step_integral(band, first); cut < limit; cut += step_integral(band, first))
-        ++first;
-    for (double cut = step_integral(band, last - 1); cut < limit;
-         cut += step_integral(band, last - 1))
-        --last;
+    double cut = step_integral(band, first);
+    while (cut < limit)
+        cut += step_integral(band, ++first);
+    cut = step_integral(band, last - 1);
+    while (cut < limit)
+        cut += step_integral(band, --last - 1);
 
     // Greedy: a sample goes if the line from the last one kept to the next one is good enough.
     std::vector<size_t> kept{first};

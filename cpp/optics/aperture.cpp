@@ -108,7 +108,7 @@ template <class Pupil> class GeometricAperture final : public Aperture {
             (std::numbers::sqrt2 * grid.largest_angle() / wavelength + wavefront.slope_bound());
         // Far from the core a wrong amplitude meets a small one, so that the intensity is better
         // than the amplitude: start loosely and let the check decide.
-        for (double asked = std::min(0.03, 10 * eps);;) {
+        for (double asked = std::min(0.1, 30 * eps);;) {
             const PupilNodes nodes = pupil_nodes(pupil_, wavenumber, asked);
             Plane<Complex> value = transform(nodes, wavefront, wavelength, grid, eps / 8);
             const double error = check(value, pupil_nodes(pupil_, wavenumber, asked * 1e-3),

@@ -127,7 +127,8 @@ WFPSF_EXPORT wfpsf_status wfpsf_image_read_fits(const char *path, const char *hd
  *
  * Given:    path     of the file
  *           options  WFPSF_OPTION_FITS_OVERWRITE
- * Status:   ERROR_NULL, ERROR_FILE_WRITE (also when the file exists and may not be overwritten)
+ * Status:   ERROR_NULL, ERROR_SIZE (an empty image), ERROR_FILE_WRITE (also when the file exists
+ * and may not be overwritten)
  */
 WFPSF_EXPORT wfpsf_status wfpsf_image_write_fits(const wfpsf_image *image, const char *path,
                                                  const wfpsf_options *options);

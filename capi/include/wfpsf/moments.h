@@ -64,9 +64,9 @@ WFPSF_EXPORT wfpsf_status wfpsf_moments_measure(const wfpsf_image *image,
  * Unweighted moments over the whole image about a point, with compensated sums.
  *
  * Given:    x, y   the point; NaN for both: the centroid
- * Returned: out    the result, as for wfpsf_moments_measure()
- * Status:   OK; ERROR_MOMENTS_NO_PIXELS, ERROR_MOMENTS_FLUX, ERROR_NOT_FINITE with a result;
- *           ERROR_NULL, ERROR_NO_MEMORY without
+ * Returned: out    the result; NULL on failure
+ * Status:   ERROR_NULL, ERROR_NOT_FINITE, ERROR_MOMENTS_FLUX (the pixels sum to zero),
+ *           ERROR_NO_MEMORY
  */
 WFPSF_EXPORT wfpsf_status wfpsf_moments_measure_unweighted(const wfpsf_image *image, double x,
                                                            double y, wfpsf_moments **out);

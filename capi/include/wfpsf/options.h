@@ -45,7 +45,7 @@ enum { WFPSF_OPTION_REAL = 1, WFPSF_OPTION_INTEGER = 2 };
     X(KERNEL_NEGATIVE, 220, INTEGER, 0, 0, 1,                                                      \
       "1: taps outside [0, 1] are allowed, as correction kernels need")                            \
     X(KERNEL_NORMALISE, 230, INTEGER, 0, 0, 1, "1: taps are divided by their sum")                 \
-    X(MOMENTS_TOLERANCE, 300, REAL, 1e-8, 1e-13, 1e-2,                                             \
+    X(MOMENTS_TOLERANCE, 300, REAL, 1e-8, 1e-12, 1e-2,                                             \
       "largest whitened error of centroid and moments")                                            \
     X(MOMENTS_MAX_PASSES, 310, INTEGER, 200, 1, 100000, "most passes over the image")              \
     X(MOMENTS_GUESS_X, 320, REAL, WFPSF_AUTOMATIC, -1e15, 1e15,                                    \

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "error/error.hpp"
 #include "instrument/instrument.hpp"
-#include "numerics/quadrature.hpp"
 #include "optics/psf.hpp"
+#include "oracles/psf_oracle.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
-#include <functional>
 #include <gtest/gtest.h>
 #include <numbers>
 #include <vector>
@@ -15,7 +13,8 @@
 namespace wfpsf {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using namespace oracle;
+
 constexpr double pixel_scale = 0.11 * pi / 180 / 3600;
 
 const Instrument &c5() {
@@ -34,47 +33,6 @@ Wavefront sca_wavefront(int sca, double wavelength, double extra_defocus = 0) {
     for (double &a : waves)
         a *= 1293e-9 / wavelength;
     return Wavefront(waves, 1.18);
-}
-
-using Intensity = std::function<double(double, double)>; // at angles, per radian^2
-
-// The light in the native pixel centred on an angle, by a tensor Gauss rule.
-double in_pixel(const Intensity &intensity, double x, double y) {
-    const GaussLegendre rule(16);
-    double sum = 0;
-    for (size_t i = 0; i < rule.x.size(); ++i)
-        for (size_t j = 0; j < rule.x.size(); ++j)
-            sum += rule.w[i] * rule.w[j] / 4 *
-                   intensity(x + rule.x[i] * pixel_scale / 2, y + rule.x[j] * pixel_scale / 2);
-    return sum * pixel_scale * pixel_scale;
-}
-
-// |A|^2 / (area lambda^2) summed over nodes far finer than any engine run of these tests.
-Intensity brute_force(const PupilNodes &nodes, const Wavefront &wavefront, double wavelength) {
-    std::vector<std::complex<double>> field(nodes.size());
-    double area = 0;
-    for (size_t n = 0; n < nodes.size(); ++n) {
-        field[n] = std::polar(nodes.weight[n], 2 * pi * wavefront(nodes.x[n], nodes.y[n]));
-        area += nodes.weight[n];
-    }
-    return [=](double x, double y) {
-        std::complex<double> sum = 0;
-        for (size_t n = 0; n < nodes.size(); ++n)
-            sum +=
-                field[n] * std::polar(1.0, 2 * pi / wavelength * (x * nodes.x[n] + y * nodes.y[n]));
-        return std::norm(sum) / (area * wavelength * wavelength);
-    };
-}
-
-// The obscured Airy pattern; at the angles of interest the argument is never exactly zero.
-Intensity airy(const AnnularPupil &pupil, double wavelength) {
-    return [=](double x, double y) {
-        const double k = 2 * pi * std::hypot(x, y) / wavelength;
-        const double r = pupil.outer_radius, q = pupil.inner_radius;
-        const double amplitude =
-            2 * pi * (r * std::cyl_bessel_j(1, k * r) - q * std::cyl_bessel_j(1, k * q)) / k;
-        return amplitude * amplitude / (pi * (r * r - q * q) * wavelength * wavelength);
-    };
 }
 
 struct Probe {
@@ -104,7 +62,7 @@ std::vector<Probe> probes_of(const Intensity &truth, double star_x, double star_
     for (const auto &[x, y] : at)
         probes.push_back({x, y,
                           in_pixel(truth, (static_cast<double>(x) - star_x) * pixel_scale,
-                                   (static_cast<double>(y) - star_y) * pixel_scale)});
+                                   (static_cast<double>(y) - star_y) * pixel_scale, pixel_scale)});
     return probes;
 }
 

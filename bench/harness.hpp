@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Benchmark cases: each gives its time and its error, and is run in a process of its own so that
+// its peak memory is its own too.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace wfpsf::bench {
+
+struct Timing {
+    double median_s = 0, min_s = 0;
+    int runs = 0;
+};
+
+// Runs a body once to warm up and then as often as fits half a second, 3 to 1000 times.
+Timing time(const std::function<void()> &body);
+
+struct Measured {
+    Timing timing;
+    double error = 0;      // NaN: none is defined
+    double baseline_s = 0; // of what it is compared with, in the same run; 0: nothing
+    std::string baseline = {};
+};
+
+struct Case {
+    std::string name, error_kind;
+    double target_time_s, target_error; // 0: none set
+    std::function<Measured()> run;
+};
+
+std::vector<Case> psf_cases();
+std::vector<Case> ipc_cases();
+std::vector<Case> moments_cases();
+
+} // namespace wfpsf::bench

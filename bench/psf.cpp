@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// PSFs: model, stamps, the paper's image. Errors are the largest of all probed pixels against a
+// plain sum over a far finer quadrature, in units of the peak pixel.
+#include "optics/psf.hpp"
+
+#include "harness.hpp"
+#include "instrument/instrument.hpp"
+#include "oracles/psf_oracle.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace wfpsf::bench {
+
+namespace {
+
+constexpr double pixel_scale = 0.11 * oracle::pi / 180 / 3600;
+constexpr double wavelength = 1292.11e-9; // J129
+constexpr double radius = 16.5;
+
+const Instrument &c5() {
+    return Instrument::get("wfirst-afta-c5");
+}
+
+Wavefront sca7() {
+    const auto zernikes = c5().zernikes(7);
+    std::vector<double> waves(zernikes.begin(), zernikes.end());
+    std::fill_n(waves.begin(), 3, 0.0);
+    for (double &a : waves)
+        a *= 1293e-9 / wavelength;
+    return Wavefront(waves, 1.18);
+}
+
+Psf make_psf(double eps, double reach = radius) {
+    return Psf(make_aperture(c5().common_pupil), sca7(), {wavelength, pixel_scale, eps, reach});
+}
+
+// Draws an image of n^2 samples with the star a little off its centre; the largest error over
+// probes from the core to the corners.
+double draw_error(const Psf &psf, int64_t n, int64_t oversampling) {
+    static const oracle::Intensity truth =
+        oracle::brute_force(pupil_nodes(c5().common_pupil, 120, 1e-14), sca7(), wavelength);
+    const double star = static_cast<double>(n - 1) / 2 + 0.23;
+    Plane<double> image(n, n);
+    psf.draw(star, star, 1, oversampling, image.view());
+    const auto scale = static_cast<double>(oversampling);
+    double peak = 0, worst = 0;
+    for (int64_t y = 0; y < n; ++y)
+        for (int64_t x = 0; x < n; ++x)
+            peak = std::max(peak, image(x, y));
+    for (const auto &[x, y] : {std::pair(n / 2, n / 2), std::pair(n / 2 + oversampling, n / 2),
+                               std::pair(int64_t{0}, n - 1), std::pair(n - 1, n / 3)}) {
+        const double expected =
+            oracle::in_pixel(truth, (static_cast<double>(x) - star) * pixel_scale / scale,
+                             (static_cast<double>(y) - star) * pixel_scale / scale, pixel_scale) /
+            (scale * scale);
+        worst = std::max(worst, std::abs(image(x, y) - expected) / peak);
+    }
+    return worst;
+}
+
+Case model_case(double eps, double target_s) {
+    char name[64];
+    std::snprintf(name, sizeof name, "PSF model, J129, +-16 native pixels, eps %.0e", eps);
+    return {name, "largest pixel error / peak pixel", target_s, eps, [eps] {
+                Measured m;
+                m.timing = time([eps] { make_psf(eps); });
+                m.error = draw_error(make_psf(eps), 32, 1);
+                return m;
+            }};
+}
+
+Case draw_case(const char *name, double eps, int64_t n, int64_t oversampling, double target_s,
+               bool with_model) {
+    return {name, "largest pixel error / peak pixel", target_s, eps, [=] {
+                Plane<double> image(n, n);
+                const double star = static_cast<double>(n - 1) / 2 + 0.23;
+                const double reach = static_cast<double>(n) / static_cast<double>(2 * oversampling);
+                const Psf psf = make_psf(eps, reach + 0.5);
+                Measured m;
+                m.timing = time([&] {
+                    std::optional<Psf> fresh;
+                    if (with_model)
+                        fresh = make_psf(eps, reach + 0.5);
+                    (fresh ? *fresh : psf).draw(star, star, 1, oversampling, image.view());
+                });
+                m.error = draw_error(psf, n, oversampling);
+                return m;
+            }};
+}
+
+} // namespace
+
+std::vector<Case> psf_cases() {
+    return {model_case(1e-3, 0), model_case(1e-6, 2.5e-3), model_case(1e-10, 5e-3),
+            draw_case("star stamp 32^2, model built, eps 1e-5", 1e-5, 32, 1, 5e-6, false),
+            draw_case("effective PSF 512^2 at pixel/32 with its model, eps 1e-6", 1e-6, 512, 32,
+                      10e-3, true)};
+}
+
+} // namespace wfpsf::bench

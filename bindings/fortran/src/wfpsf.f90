@@ -1,0 +1,644 @@
+! SPDX-License-Identifier: GPL-3.0-or-later
+!
+! WFIRST/Roman PSFs, interpixel capacitance, moments and sizes.
+!
+! Positions count from 1: the centre of the first pixel is (1, 1), as in FITS, and the centre of an
+! image is ((nx+1)/2, (ny+1)/2). That holds for positions given and returned, the options
+! moments_guess_x and _y among them. Arrays are (nx, ny). The C headers describe each quantity in
+! full; lines of error text come from the library, whose first pixel is (0, 0).
+!
+! Errors: stat becomes 0, a negative error or a positive warning (wfpsf_error_*, wfpsf_warning_*,
+! whose outputs are valid), and errmsg the library's line on it; success leaves errmsg alone. An
+! error without stat to take it ends the program with that line; a warning without stat passes.
+!
+! Objects: create, measure or read_fits fills one, destroy empties it; both may be called again, and
+! an object that goes out of scope is emptied. An object cannot be assigned to another.
+module wfpsf
+    use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
+    use, intrinsic :: iso_fortran_env, only: real32, real64
+    use wfpsf_constants
+    implicit none
+    private :: c_null_ptr, c_ptr, real32, real64, handle
+
+    ! What all objects have in common: a pointer to the library's own.
+    type :: handle
+        private
+        type(c_ptr) :: pointer = c_null_ptr
+    contains
+        procedure :: is_empty
+        procedure, private :: refuse_assignment
+        generic :: assignment(=) => refuse_assignment
+    end type handle
+
+    ! Tolerances and choices by key (wfpsf_option_*). Left out, or empty: all at their defaults.
+    type, extends(handle) :: wfpsf_options
+    contains
+        procedure :: create => options_create
+        procedure :: destroy => options_destroy
+        procedure, private :: options_set_real, options_set_integer
+        generic :: set => options_set_real, options_set_integer
+        procedure :: get => options_get
+        procedure :: reset => options_reset
+        procedure :: set_zernikes => options_set_zernikes
+        final :: options_finalize
+    end type wfpsf_options
+
+    ! The published figures of a telescope and its detectors.
+    type, extends(handle) :: wfpsf_instrument
+    contains
+        procedure :: create => instrument_create
+        procedure :: destroy => instrument_destroy
+        procedure :: constant => instrument_constant
+        procedure :: constant_name => instrument_constant_name
+        procedure :: band => instrument_band
+        procedure :: band_name => instrument_band_name
+        procedure :: throughput => instrument_throughput
+        procedure :: zernikes => instrument_zernikes
+        final :: instrument_finalize
+    end type wfpsf_instrument
+
+    ! Pixels and the record of what has been done to them. An image either owns its pixels (create,
+    ! read_fits) or stands on an array of the caller's (wrap).
+    type, extends(handle) :: wfpsf_image
+    contains
+        procedure :: create => image_create
+        procedure, private :: image_wrap_real32, image_wrap_real64
+        generic :: wrap => image_wrap_real32, image_wrap_real64
+        procedure :: read_fits => image_read_fits
+        procedure :: write_fits => image_write_fits
+        procedure :: destroy => image_destroy
+        procedure :: get_shape => image_get_shape
+        procedure :: get_record => image_get_record
+        procedure :: set_record => image_set_record
+        procedure :: copy_from => image_copy_from
+        procedure, private :: image_get_pixels_real32, image_get_pixels_real64
+        generic :: get_pixels => image_get_pixels_real32, image_get_pixels_real64
+        procedure :: interleave => image_interleave
+        procedure :: deinterleave => image_deinterleave
+        procedure :: encircled_energy => image_encircled_energy
+        procedure :: ee_radius => image_ee_radius
+        procedure :: fwhm => image_fwhm
+        final :: image_finalize
+    end type wfpsf_image
+
+    ! The image of a star, pixel response included.
+    type, extends(handle) :: wfpsf_psf
+    contains
+        procedure :: create => psf_create
+        procedure :: create_from_mask => psf_create_from_mask
+        procedure :: destroy => psf_destroy
+        procedure :: draw => psf_draw
+        procedure :: get => psf_get
+        final :: psf_finalize
+    end type wfpsf_psf
+
+    ! An interpixel capacitance kernel, applied by convolution.
+    type, extends(handle) :: wfpsf_ipc_kernel
+    contains
+        procedure :: create => kernel_create
+        procedure :: create_taps => kernel_create_taps
+        procedure :: create_wfc3 => kernel_create_wfc3
+        procedure :: create_default => kernel_create_default
+        procedure :: create_correction => kernel_create_correction
+        procedure :: create_flipped => kernel_create_flipped
+        procedure :: destroy => kernel_destroy
+        procedure :: get_taps => kernel_get_taps
+        procedure :: apply => kernel_apply
+        final :: kernel_finalize
+    end type wfpsf_ipc_kernel
+
+    ! The result of a measurement.
+    type, extends(handle) :: wfpsf_moments
+    contains
+        procedure :: measure => moments_measure
+        procedure :: measure_unweighted => moments_measure_unweighted
+        procedure :: destroy => moments_destroy
+        procedure :: status => moments_status
+        procedure :: get => moments_get
+        final :: moments_finalize
+    end type wfpsf_moments
+
+    ! Common to all.
+    private :: is_empty, refuse_assignment
+    interface
+        ! True before create and after destroy.
+        pure module function is_empty(self)
+            class(handle), intent(in) :: self
+            logical :: is_empty
+        end function is_empty
+
+        ! Two owners of one handle would free it twice.
+        module subroutine refuse_assignment(self, other)
+            class(handle), intent(inout) :: self
+            class(handle), intent(in) :: other
+        end subroutine refuse_assignment
+
+        ! Fails if the loaded library's binary interface is not the one these modules describe.
+        module subroutine wfpsf_check_version(stat, errmsg)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine wfpsf_check_version
+
+        ! "major.minor.patch" of the loaded library.
+        module function wfpsf_library_version() result(version)
+            character(len=:), allocatable :: version
+        end function wfpsf_library_version
+    end interface
+
+    ! Options.
+    private :: options_create, options_destroy, options_set_real, options_set_integer
+    private :: options_get, options_reset, options_set_zernikes, options_finalize
+    interface
+        module subroutine options_create(self, stat, errmsg)
+            class(wfpsf_options), intent(inout) :: self
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine options_create
+
+        module subroutine options_destroy(self)
+            class(wfpsf_options), intent(inout) :: self
+        end subroutine options_destroy
+
+        ! Options of the kind wfpsf_option_real take a real value, the others an integer.
+        module subroutine options_set_real(self, key, value, stat, errmsg)
+            class(wfpsf_options), intent(inout) :: self
+            integer, intent(in) :: key
+            real(real64), intent(in) :: value
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine options_set_real
+
+        module subroutine options_set_integer(self, key, value, stat, errmsg)
+            class(wfpsf_options), intent(inout) :: self
+            integer, intent(in) :: key
+            integer, intent(in) :: value
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine options_set_integer
+
+        ! Whatever its kind, as a real; NaN if it is left to the library.
+        module subroutine options_get(self, key, value, stat, errmsg)
+            class(wfpsf_options), intent(in) :: self
+            integer, intent(in) :: key
+            real(real64), intent(inout) :: value
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine options_get
+
+        module subroutine options_reset(self, key, stat, errmsg)
+            class(wfpsf_options), intent(inout) :: self
+            integer, intent(in) :: key
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine options_reset
+
+        ! Extra aberrations: Noll order from j = 1, waves rms at the instrument's reference
+        ! wavelength.
+        module subroutine options_set_zernikes(self, coefficients, stat, errmsg)
+            class(wfpsf_options), intent(inout) :: self
+            real(real64), intent(in), contiguous :: coefficients(:)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine options_set_zernikes
+
+        impure elemental module subroutine options_finalize(self)
+            type(wfpsf_options), intent(inout) :: self
+        end subroutine options_finalize
+    end interface
+
+    ! Instruments.
+    private :: instrument_create, instrument_destroy, instrument_constant, instrument_constant_name
+    private :: instrument_band, instrument_band_name, instrument_throughput, instrument_zernikes
+    private :: instrument_finalize
+    interface
+        ! name: "wfirst-afta-c5".
+        module subroutine instrument_create(self, name, stat, errmsg)
+            class(wfpsf_instrument), intent(inout) :: self
+            character(len=*), intent(in) :: name
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine instrument_create
+
+        module subroutine instrument_destroy(self)
+            class(wfpsf_instrument), intent(inout) :: self
+        end subroutine instrument_destroy
+
+        ! A constant by name, such as "diameter" or "pixel_scale".
+        module subroutine instrument_constant(self, name, value, unit, stat, errmsg)
+            class(wfpsf_instrument), intent(in) :: self
+            character(len=*), intent(in) :: name
+            real(real64), intent(inout) :: value
+            character(len=:), allocatable, intent(out), optional :: unit
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine instrument_constant
+
+        ! Name of the index-th constant, index = 1, 2, ...; empty past the last.
+        module function instrument_constant_name(self, index) result(name)
+            class(wfpsf_instrument), intent(in) :: self
+            integer, intent(in) :: index
+            character(len=:), allocatable :: name
+        end function instrument_constant_name
+
+        ! Limits and effective wavelength of a band; rule: wfpsf_band_*.
+        module subroutine instrument_band(self, band, rule, blue_nm, red_nm, effective_nm, stat, &
+            errmsg)
+            class(wfpsf_instrument), intent(in) :: self
+            character(len=*), intent(in) :: band
+            integer, intent(in) :: rule
+            real(real64), intent(inout), optional :: blue_nm, red_nm, effective_nm
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine instrument_band
+
+        ! Name of the index-th band in order of wavelength, index = 1, 2, ...; empty past the last.
+        module function instrument_band_name(self, index) result(name)
+            class(wfpsf_instrument), intent(in) :: self
+            integer, intent(in) :: index
+            character(len=:), allocatable :: name
+        end function instrument_band_name
+
+        ! Throughput of a band; the two arrays have one size.
+        module subroutine instrument_throughput(self, band, wavelength_nm, throughput, stat, errmsg)
+            class(wfpsf_instrument), intent(in) :: self
+            character(len=*), intent(in) :: band
+            real(real64), intent(in), contiguous :: wavelength_nm(:)
+            real(real64), intent(inout), contiguous :: throughput(:)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine instrument_throughput
+
+        ! Aberrations at the centre of a detector, as options%set_zernikes takes them.
+        module subroutine instrument_zernikes(self, sca, coefficients, stat, errmsg)
+            class(wfpsf_instrument), intent(in) :: self
+            integer, intent(in) :: sca
+            real(real64), allocatable, intent(out) :: coefficients(:)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine instrument_zernikes
+
+        impure elemental module subroutine instrument_finalize(self)
+            type(wfpsf_instrument), intent(inout) :: self
+        end subroutine instrument_finalize
+    end interface
+
+    ! Images.
+    private :: image_create, image_wrap_real32, image_wrap_real64, image_read_fits
+    private :: image_write_fits, image_destroy, image_get_shape, image_get_record, image_set_record
+    private :: image_copy_from, image_get_pixels_real32, image_get_pixels_real64, image_interleave
+    private :: image_deinterleave, image_encircled_energy, image_ee_radius, image_fwhm
+    private :: image_finalize
+    interface
+        ! Zeros that the image owns; pixel_type: wfpsf_float32 or wfpsf_float64; oversampling:
+        ! samples per native pixel along each axis.
+        module subroutine image_create(self, pixel_type, nx, ny, oversampling, stat, errmsg)
+            class(wfpsf_image), intent(inout) :: self
+            integer, intent(in) :: pixel_type, nx, ny, oversampling
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine image_create
+
+        ! The image stands on the array, without a copy: what is drawn appears there. The array is a
+        ! target or pointer, a section with any strides if you like (no vector subscripts), and it
+        ! outlives the image and keeps its place: destroy or wrap again before it is deallocated,
+        ! reallocated, or goes out of scope.
+        module subroutine image_wrap_real32(self, array, oversampling, stat, errmsg)
+            class(wfpsf_image), intent(inout) :: self
+            real(real32), intent(inout), target :: array(:, :)
+            integer, intent(in) :: oversampling
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine image_wrap_real32
+
+        module subroutine image_wrap_real64(self, array, oversampling, stat, errmsg)
+            class(wfpsf_image), intent(inout) :: self
+            real(real64), intent(inout), target :: array(:, :)
+            integer, intent(in) :: oversampling
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine image_wrap_real64
+
+        ! hdu: the extension's name, or its number from 0; absent: the first image. pixel_type:
+        ! absent: as the file suggests. Trailing blanks of a path do not count.
+        module subroutine image_read_fits(self, path, hdu, pixel_type, stat, errmsg)
+            class(wfpsf_image), intent(inout) :: self
+            character(len=*), intent(in) :: path
+            character(len=*), intent(in), optional :: hdu
+            integer, intent(in), optional :: pixel_type
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine image_read_fits
+
+        ! Option: fits_overwrite.
+        module subroutine image_write_fits(self, path, options, stat, errmsg)
+            class(wfpsf_image), intent(in) :: self
+            character(len=*), intent(in) :: path
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine image_write_fits
+
+        module subroutine image_destroy(self)
+            class(wfpsf_image), intent(inout) :: self
+        end subroutine image_destroy
+
+        module subroutine image_get_shape(self, pixel_type, nx, ny, stat, errmsg)
+            class(wfpsf_image), intent(in) :: self
+            integer, intent(inout), optional :: pixel_type, nx, ny
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine image_get_shape
+
+        ! applied: sum of wfpsf_effect_*.
+        module subroutine image_get_record(self, oversampling, pixel_scale_arcsec, applied, stat, &
+            errmsg)
+            class(wfpsf_image), intent(in) :: self
+            integer, intent(inout), optional :: oversampling
+            real(real64), intent(inout), optional :: pixel_scale_arcsec
+            integer, intent(inout), optional :: applied
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine image_get_record
+
+        module subroutine image_set_record(self, oversampling, pixel_scale_arcsec, applied, stat, &
+            errmsg)
+            class(wfpsf_image), intent(inout) :: self
+            integer, intent(in) :: oversampling
+            real(real64), intent(in) :: pixel_scale_arcsec
+            integer, intent(in) :: applied
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine image_set_record
+
+        ! Pixels, converted to this image's type, and record of an image of the same size.
+        module subroutine image_copy_from(self, other, stat, errmsg)
+            class(wfpsf_image), intent(inout) :: self
+            class(wfpsf_image), intent(in) :: other
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine image_copy_from
+
+        ! A copy of the pixels, in an array made to fit.
+        module subroutine image_get_pixels_real32(self, array, stat, errmsg)
+            class(wfpsf_image), intent(in) :: self
+            real(real32), allocatable, target, intent(out) :: array(:, :)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine image_get_pixels_real32
+
+        module subroutine image_get_pixels_real64(self, array, stat, errmsg)
+            class(wfpsf_image), intent(in) :: self
+            real(real64), allocatable, target, intent(out) :: array(:, :)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine image_get_pixels_real64
+
+        ! Makes this image of n_x * n_y dithered ones with offsets dx, dy in native pixels.
+        module subroutine image_interleave(self, images, n_x, n_y, dx, dy, convention, stat, errmsg)
+            class(wfpsf_image), intent(inout) :: self
+            type(wfpsf_image), intent(in) :: images(:)
+            integer, intent(in) :: n_x, n_y
+            real(real64), intent(in), contiguous :: dx(:), dy(:)
+            integer, intent(in) :: convention
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine image_interleave
+
+        ! The inverse: makes the dithered images of this one.
+        module subroutine image_deinterleave(self, images, n_x, n_y, dx, dy, convention, stat, &
+            errmsg)
+            class(wfpsf_image), intent(in) :: self
+            type(wfpsf_image), intent(inout) :: images(:)
+            integer, intent(in) :: n_x, n_y
+            real(real64), intent(in), contiguous :: dx(:), dy(:)
+            integer, intent(in) :: convention
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine image_deinterleave
+
+        ! Fraction of the light in the circle about (x, y), pixels of the image.
+        ! Options: size_total_flux, size_bandwidth.
+        module subroutine image_encircled_energy(self, x, y, radius, fraction, error, options, &
+            stat, errmsg)
+            class(wfpsf_image), intent(in) :: self
+            real(real64), intent(in) :: x, y, radius
+            real(real64), intent(inout) :: fraction
+            real(real64), intent(inout), optional :: error
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine image_encircled_energy
+
+        ! Radius of the circle about (x, y) that holds a fraction of the light; method:
+        ! wfpsf_size_*. Options: size_total_flux, size_bandwidth.
+        module subroutine image_ee_radius(self, x, y, fraction, method, radius, error, options, &
+            stat, errmsg)
+            class(wfpsf_image), intent(in) :: self
+            real(real64), intent(in) :: x, y, fraction
+            integer, intent(in) :: method
+            real(real64), intent(inout) :: radius
+            real(real64), intent(inout), optional :: error
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine image_ee_radius
+
+        module subroutine image_fwhm(self, x, y, fwhm, stat, errmsg)
+            class(wfpsf_image), intent(in) :: self
+            real(real64), intent(in) :: x, y
+            real(real64), intent(inout) :: fwhm
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine image_fwhm
+
+        impure elemental module subroutine image_finalize(self)
+            type(wfpsf_image), intent(inout) :: self
+        end subroutine image_finalize
+    end interface
+
+    ! PSFs.
+    private :: psf_create, psf_create_from_mask, psf_destroy, psf_draw, psf_get, psf_finalize
+    interface
+        ! At the centre of detector sca, 1..18. Options: eps, struts, psf_radius, piston_tilt and
+        ! extra Zernikes.
+        module subroutine psf_create(self, instrument, sca, wavelength_nm, options, stat, errmsg)
+            class(wfpsf_psf), intent(inout) :: self
+            type(wfpsf_instrument), intent(in) :: instrument
+            integer, intent(in) :: sca
+            real(real64), intent(in) :: wavelength_nm
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine psf_create
+
+        ! The same with a mask for pupil; (axis_x, axis_y): the optical axis in the mask, whose
+        ! first pixel is (1, 1).
+        module subroutine psf_create_from_mask(self, instrument, mask, mask_scale_m, axis_x, &
+            axis_y, sca, wavelength_nm, options, stat, errmsg)
+            class(wfpsf_psf), intent(inout) :: self
+            type(wfpsf_instrument), intent(in) :: instrument
+            type(wfpsf_image), intent(in) :: mask
+            real(real64), intent(in) :: mask_scale_m, axis_x, axis_y
+            integer, intent(in) :: sca
+            real(real64), intent(in) :: wavelength_nm
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine psf_create_from_mask
+
+        module subroutine psf_destroy(self)
+            class(wfpsf_psf), intent(inout) :: self
+        end subroutine psf_destroy
+
+        ! Overwrites the image with a star whose optical axis falls on (x, y), pixels of the image.
+        module subroutine psf_draw(self, x, y, flux, image, stat, errmsg)
+            class(wfpsf_psf), intent(in) :: self
+            real(real64), intent(in) :: x, y, flux
+            type(wfpsf_image), intent(inout) :: image
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine psf_draw
+
+        ! key: wfpsf_psf_*.
+        module subroutine psf_get(self, key, value, stat, errmsg)
+            class(wfpsf_psf), intent(in) :: self
+            integer, intent(in) :: key
+            real(real64), intent(inout) :: value
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine psf_get
+
+        impure elemental module subroutine psf_finalize(self)
+            type(wfpsf_psf), intent(inout) :: self
+        end subroutine psf_finalize
+    end interface
+
+    ! IPC kernels.
+    private :: kernel_create, kernel_create_taps, kernel_create_wfc3, kernel_create_default
+    private :: kernel_create_correction, kernel_create_flipped, kernel_destroy, kernel_get_taps
+    private :: kernel_apply, kernel_finalize
+    interface
+        ! The paper's 3 x 3 kernel. Option: kernel_negative.
+        module subroutine kernel_create(self, alpha, alpha_prime, alpha_plus, options, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(inout) :: self
+            real(real64), intent(in) :: alpha, alpha_prime, alpha_plus
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_create
+
+        ! taps: odd sizes, the centre in the middle. Options: kernel_negative, kernel_normalise.
+        module subroutine kernel_create_taps(self, taps, options, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(inout) :: self
+            real(real64), intent(in), contiguous :: taps(:, :)
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_create_taps
+
+        ! The kernel measured for WFC3/IR.
+        module subroutine kernel_create_wfc3(self, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(inout) :: self
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_create_wfc3
+
+        ! The instrument's own.
+        module subroutine kernel_create_default(self, instrument, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(inout) :: self
+            type(wfpsf_instrument), intent(in) :: instrument
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_create_default
+
+        ! The first-order correction of another kernel.
+        module subroutine kernel_create_correction(self, kernel, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(inout) :: self
+            type(wfpsf_ipc_kernel), intent(in) :: kernel
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_create_correction
+
+        ! Another kernel turned by 180 degrees.
+        module subroutine kernel_create_flipped(self, kernel, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(inout) :: self
+            type(wfpsf_ipc_kernel), intent(in) :: kernel
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_create_flipped
+
+        module subroutine kernel_destroy(self)
+            class(wfpsf_ipc_kernel), intent(inout) :: self
+        end subroutine kernel_destroy
+
+        module subroutine kernel_get_taps(self, taps, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(in) :: self
+            real(real64), allocatable, intent(out) :: taps(:, :)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_get_taps
+
+        ! Convolves one image into another; edge: wfpsf_edge_*. Options: ipc_fill, force.
+        module subroutine kernel_apply(self, from, edge, to, options, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(in) :: self
+            type(wfpsf_image), intent(in) :: from
+            integer, intent(in) :: edge
+            type(wfpsf_image), intent(inout) :: to
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_apply
+
+        impure elemental module subroutine kernel_finalize(self)
+            type(wfpsf_ipc_kernel), intent(inout) :: self
+        end subroutine kernel_finalize
+    end interface
+
+    ! Moments.
+    private :: moments_measure, moments_measure_unweighted, moments_destroy, moments_status
+    private :: moments_get, moments_finalize
+    interface
+        ! The best-fit elliptical Gaussian. A measurement that fails leaves its last iterate here.
+        ! Options: moments_*.
+        module subroutine moments_measure(self, image, options, stat, errmsg)
+            class(wfpsf_moments), intent(inout) :: self
+            type(wfpsf_image), intent(in) :: image
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine moments_measure
+
+        ! Over the whole image about the point (x, y); both absent: the centroid.
+        module subroutine moments_measure_unweighted(self, image, x, y, stat, errmsg)
+            class(wfpsf_moments), intent(inout) :: self
+            type(wfpsf_image), intent(in) :: image
+            real(real64), intent(in), optional :: x, y
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine moments_measure_unweighted
+
+        module subroutine moments_destroy(self)
+            class(wfpsf_moments), intent(inout) :: self
+        end subroutine moments_destroy
+
+        ! The status with which the measurement ended.
+        module function moments_status(self) result(status)
+            class(wfpsf_moments), intent(in) :: self
+            integer :: status
+        end function moments_status
+
+        ! key: wfpsf_moments_*.
+        module subroutine moments_get(self, key, value, stat, errmsg)
+            class(wfpsf_moments), intent(in) :: self
+            integer, intent(in) :: key
+            real(real64), intent(inout) :: value
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine moments_get
+
+        impure elemental module subroutine moments_finalize(self)
+            type(wfpsf_moments), intent(inout) :: self
+        end subroutine moments_finalize
+    end interface
+
+end module wfpsf

@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+"""
+WFIRST/Roman PSFs, interpixel capacitance and moments of images, by the shared library `libwfpsf`.
+
+    using Wfpsf
+
+    instrument = Instrument("wfirst-afta-c5")
+    wavelength = band(instrument, "J129"; rule = :paper).effective_nm
+    star = PSF(psf -> draw(psf, 512, 512; oversampling = 32), instrument, 7, wavelength; eps = 1e-7)
+    blurred = IPCKernel(kernel -> apply_ipc(kernel, star), 0.02, 0.002)
+    adaptive_moments(blurred).sigma
+
+- Positions count from 1: the centre of the first pixel is (1, 1), as in FITS, both in arguments
+  and in results. The texts of errors come from the C library and count from (0, 0).
+- Images are matrices of size `(nx, ny)`: `pixels[x, y]`, x along the fast axis.
+- A call that fails throws a [`WfpsfError`](@ref); one that succeeds with a reservation logs a
+  warning.
+- What takes keyword options says which; [`options`](@ref) lists their defaults and bounds.
+- Objects that hold memory of the library free it when they are collected, or at `close`, which may
+  be called twice; every constructor has a `do`-block form that closes at the end of the block.
+
+The environment variable `WFPSF_LIBRARY` names the shared library when the package is loaded;
+without it the system's loader looks for `libwfpsf`.
+"""
+module Wfpsf
+
+export WfpsfError, options,
+    Instrument, constant, constants, band, bands, throughput, zernikes,
+    Image, record, set_record!, read_fits, write_fits,
+    interleave, interleave!, deinterleave, deinterleave!,
+    PSF, draw, draw!,
+    IPCKernel, wfc3_kernel, correction, flipped, taps, apply_ipc, apply_ipc!,
+    Moments, adaptive_moments, unweighted_moments,
+    encircled_energy, ee_radius, fwhm
+
+include("LibWfpsf.jl")
+using .LibWfpsf
+
+include("status.jl")
+include("names.jl")
+include("handle.jl")
+include("options.jl")
+include("instrument.jl")
+include("image.jl")
+include("interleave.jl")
+include("psf.jl")
+include("ipc.jl")
+include("moments.jl")
+include("size.jl")
+
+"Version of the loaded library."
+version() = VersionNumber(unsafe_string(LibWfpsf.wfpsf_version()))
+
+function __init__()
+    path = get(ENV, "WFPSF_LIBRARY", "libwfpsf")
+    try
+        LibWfpsf.load(path)
+    catch failure
+        error("cannot load the library $path; the environment variable WFPSF_LIBRARY can name ",
+              "another: ", sprint(showerror, failure))
+    end
+    check(LibWfpsf.wfpsf_abi_check(LibWfpsf.WFPSF_ABI_NUMBER))
+end
+
+end

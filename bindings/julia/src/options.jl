@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Keyword options. Their names are the library's in lower case; kinds, defaults and bounds are asked
+# of the library.
+
+const OPTIONS = let all_names = constants_of("WFPSF_OPTION_")
+    kinds = (:real, :integer)
+    options = Tuple(name for name in keys(all_names) if !(name in kinds))
+    NamedTuple{options}(all_names)
+end
+
+# Positions count from 1 here, from 0 in the library.
+const POSITIONS = (:moments_guess_x, :moments_guess_y)
+
+mutable struct Options <: Handle
+    pointer::Ptr{Cvoid}
+    Options() = finalizer(close, new(created(LibWfpsf.wfpsf_options_create)))
+end
+
+destroy(::Options, pointer) = LibWfpsf.wfpsf_options_destroy(pointer)
+
+function describe(name)
+    text, kind = Ref{Cstring}(), Ref{Int32}()
+    standard, smallest, largest = Ref{Float64}(), Ref{Float64}(), Ref{Float64}()
+    check(LibWfpsf.wfpsf_option_describe(OPTIONS[name], C_NULL, text, kind, standard, smallest,
+                                         largest))
+    shift = name in POSITIONS ? 1 : 0
+    return (name = name, integer = kind[] == LibWfpsf.WFPSF_OPTION_INTEGER,
+            default = isnan(standard[]) ? nothing : standard[] + shift,
+            smallest = smallest[] + shift, largest = largest[] + shift,
+            text = replace(unsafe_string(text[]), "first pixel at 0" => "first pixel at 1"))
+end
+
+"""
+    options()
+
+The keyword options: a vector of `(name, integer, default, smallest, largest, text)`. A default of
+`nothing` stands for "chosen by the library", and `nothing` as a value leaves any option at its
+default. Positions count from (1, 1).
+"""
+options() = [describe(name) for name in keys(OPTIONS)]
+
+function set!(options, name, value)
+    if name === :zernikes
+        numbers = collect(Float64, value)
+        check(LibWfpsf.wfpsf_options_set_zernikes(options, length(numbers), numbers))
+    elseif describe(name).integer
+        check(LibWfpsf.wfpsf_options_set_integer(options, OPTIONS[name], value))
+    else
+        shift = name in POSITIONS ? 1 : 0
+        check(LibWfpsf.wfpsf_options_set_real(options, OPTIONS[name], value - shift))
+    end
+    return nothing
+end
+
+# Runs `call` with the options that a function was given, of those that it takes.
+function with_options(call, taken, given)
+    isempty(given) && return call(C_NULL)
+    options = Options()
+    try
+        for (name, value) in pairs(given)
+            name in taken || throw(ArgumentError(
+                "no option $name here: there are $(join(taken, ", "))"))
+            value === nothing || set!(options, name, value)
+        end
+        return call(options)
+    finally
+        close(options)
+    end
+end

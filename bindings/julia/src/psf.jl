@@ -1,0 +1,82 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+const PSF_PROPERTIES = constants_of("WFPSF_PSF_")
+const PSF_OPTIONS = (:eps, :struts, :psf_radius, :piston_tilt, :zernikes)
+
+"""
+    PSF(instrument, sca, wavelength_nm; options...)
+    PSF(instrument, sca, wavelength_nm, mask; mask_scale_m, axis_x, axis_y, options...)
+    PSF(f, ...)
+
+The monochromatic effective PSF at the centre of detector `sca`: the diffraction image of a star,
+averaged over the native pixel. Immutable: threads may share it. The instrument may be closed
+afterwards.
+
+Options: `eps` (largest error of any pixel, in units of the stamp's peak), `struts`, `psf_radius`
+(native pixels made in advance), `piston_tilt`, and `zernikes`, a vector of extra aberrations in
+Noll's order (waves rms at the instrument's reference wavelength).
+
+The second form takes the pupil from an image of transmissions with pixels of `mask_scale_m` metres
+and the optical axis at (`axis_x`, `axis_y`), the centre of the mask's first pixel being (1, 1). It
+takes a second for a mask of 4096 × 4096.
+
+Properties are read as `psf.error_estimate`: `wavelength_nm`, `pixel_scale_arcsec`,
+`error_estimate` (numerical error of any pixel, in units of the peak), `model_error` (of the pupil's
+geometry against the published mask, same units), `peak` (largest fraction of the light in one
+native pixel), `nodes`, `grid_size`, `grid_step_arcsec`, `radius`, `lit_area_m2`.
+"""
+mutable struct PSF <: Handle
+    pointer::Ptr{Cvoid}
+
+    function PSF(instrument::Instrument, sca::Integer, wavelength_nm::Real; keywords...)
+        pointer = with_options(PSF_OPTIONS, keywords) do options
+            created() do out
+                LibWfpsf.wfpsf_psf_create(instrument, sca, wavelength_nm, options, out)
+            end
+        end
+        return finalizer(close, new(pointer))
+    end
+
+    function PSF(instrument::Instrument, sca::Integer, wavelength_nm::Real, mask::Image;
+                 mask_scale_m::Real, axis_x::Real, axis_y::Real, keywords...)
+        pointer = with_options(PSF_OPTIONS, keywords) do options
+            created() do out
+                LibWfpsf.wfpsf_psf_create_from_mask(instrument, mask, mask_scale_m, axis_x - 1,
+                                                    axis_y - 1, sca, wavelength_nm, options, out)
+            end
+        end
+        return finalizer(close, new(pointer))
+    end
+end
+
+destroy(::PSF, pointer) = LibWfpsf.wfpsf_psf_destroy(pointer)
+
+Base.propertynames(::PSF) = keys(PSF_PROPERTIES)
+
+function Base.getproperty(psf::PSF, name::Symbol)
+    value = Ref{Float64}()
+    check(LibWfpsf.wfpsf_psf_get(psf, choose(PSF_PROPERTIES, :property, name), value))
+    return value[]
+end
+
+"""
+    draw!(image, psf, x, y; flux = 1)
+    draw(psf, nx, ny; x = (nx+1)/2, y = (ny+1)/2, flux = 1, oversampling = 1, pixel_type = Float64)
+
+Draws one star, overwriting the image; the second form makes the image. (x, y), in pixels of the
+image, is where the optical axis falls, not the centroid; the centre of the first pixel is (1, 1).
+
+Each pixel gets `flux / N^2` times the fraction of the light that a native pixel centred there
+receives, N the image's oversampling: the sum over an infinite image is the flux at any N. The
+record becomes the PSF's pixel scale, with the pixel response applied.
+"""
+function draw!(image::Image, psf::PSF, x::Real, y::Real; flux::Real = 1)
+    check(LibWfpsf.wfpsf_psf_draw(psf, x - 1, y - 1, flux, image))
+    return image
+end
+
+function draw(psf::PSF, nx::Integer, ny::Integer; x::Real = (nx + 1) / 2, y::Real = (ny + 1) / 2,
+              flux::Real = 1, oversampling::Integer = 1, pixel_type::Type{<:PixelType} = Float64)
+    image = Image(pixel_type, nx, ny; oversampling = oversampling)
+    return draw!(image, psf, x, y; flux = flux)
+end

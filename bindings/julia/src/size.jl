@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+const SIZE_METHODS = constants_of("WFPSF_SIZE_")
+const SIZE_OPTIONS = (:size_total_flux, :size_bandwidth)
+
+"""
+    encircled_energy(image, x, y, radius; options...)
+
+`(fraction, error)`: fraction of the light inside a circle, by the integral of the band-limited
+image, and an estimate of its error. Lengths are in pixels of the image, the centre of the first
+pixel being (1, 1). The circle must lie inside the image.
+
+Options: `size_total_flux` (what counts as 100%; by default the sum of all pixels) and
+`size_bandwidth` (highest frequency in the image, cycles per pixel of the image).
+"""
+function encircled_energy(image::Image, x::Real, y::Real, radius::Real; keywords...)
+    fraction, error = Ref{Float64}(), Ref{Float64}()
+    with_options(SIZE_OPTIONS, keywords) do options
+        check(LibWfpsf.wfpsf_size_encircled_energy(image, x - 1, y - 1, radius, options, fraction,
+                                                   error))
+    end
+    return (fraction = fraction[], error = error[])
+end
+
+"""
+    ee_radius(image, x, y, fraction = 0.5; method = :bandlimited, options...)
+
+`(radius, error)`: radius of the circle about (x, y) that holds a fraction of the light, by default
+the half-light radius, and an estimate of its error. Lengths are in pixels of the image, the centre
+of the first pixel being (1, 1).
+
+`method`: `:bandlimited` (the band-limited image integrated over the disc), `:pixel_sum` (pixels
+whose centre lies in the circle; Kannawadi et al. 2016, Eq. 25) or `:pixel_interpolated` (GalSim's
+calculateHLR); the last two have NaN for an error. Options as for [`encircled_energy`](@ref).
+"""
+function ee_radius(image::Image, x::Real, y::Real, fraction::Real = 0.5;
+                   method::Symbol = :bandlimited, keywords...)
+    radius, error = Ref{Float64}(), Ref{Float64}()
+    with_options(SIZE_OPTIONS, keywords) do options
+        check(LibWfpsf.wfpsf_size_ee_radius(image, x - 1, y - 1, fraction,
+                                            choose(SIZE_METHODS, :method, method), options, radius,
+                                            error))
+    end
+    return (radius = radius[], error = error[])
+end
+
+"""
+    fwhm(image, x, y)
+
+Full width at half maximum about (x, y) from pixels sorted by distance, as GalSim's calculateFWHM;
+pixels of the image, the centre of the first pixel being (1, 1).
+"""
+function fwhm(image::Image, x::Real, y::Real)
+    width = Ref{Float64}()
+    check(LibWfpsf.wfpsf_size_fwhm(image, x - 1, y - 1, width))
+    return width[]
+end

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "moments/unweighted.hpp"
+
+#include "error/error.hpp"
+
+#include <cmath>
+
+namespace wfpsf {
+
+namespace {
+
+// Neumaier's sum: what rounding takes off is kept aside and added at the end.
+class CompensatedSum {
+  public:
+    void add(double value) {
+        const double total = sum_ + value;
+        lost_ +=
+            std::abs(sum_) >= std::abs(value) ? (sum_ - total) + value : (value - total) + sum_;
+        sum_ = total;
+    }
+    double value() const { return sum_ + lost_; }
+
+  private:
+    double sum_ = 0, lost_ = 0;
+};
+
+double checked_flux(double flux) {
+    if (!std::isfinite(flux))
+        fail(WFPSF_ERROR_NOT_FINITE, "flux = %g: every pixel must be finite", flux);
+    if (flux == 0)
+        fail(WFPSF_ERROR_MOMENTS_FLUX, "flux = 0: moments need a flux that is not zero");
+    return flux;
+}
+
+} // namespace
+
+double UnweightedMoments::radius_det() const {
+    return std::pow(Mxx * Myy - Mxy * Mxy, 0.25);
+}
+double UnweightedMoments::radius_trace() const {
+    return std::sqrt((Mxx + Myy) / 2);
+}
+
+template <class T> UnweightedMoments unweighted_moments(View<const T> image, double x, double y) {
+    CompensatedSum flux, xx, xy, yy;
+    for (int64_t j = 0; j < image.ny; ++j) {
+        const double dy = static_cast<double>(j) - y;
+        for (int64_t i = 0; i < image.nx; ++i) {
+            const double value = static_cast<double>(image(i, j));
+            const double dx = static_cast<double>(i) - x;
+            flux.add(value);
+            xx.add(value * dx * dx);
+            xy.add(value * dx * dy);
+            yy.add(value * dy * dy);
+        }
+    }
+    const double total = checked_flux(flux.value());
+    return {total, x, y, xx.value() / total, xy.value() / total, yy.value() / total};
+}
+
+template <class T> UnweightedMoments unweighted_moments(View<const T> image) {
+    CompensatedSum flux, first_x, first_y;
+    const double middle_x = static_cast<double>(image.nx - 1) / 2;
+    const double middle_y = static_cast<double>(image.ny - 1) / 2;
+    for (int64_t j = 0; j < image.ny; ++j)
+        for (int64_t i = 0; i < image.nx; ++i) {
+            const double value = static_cast<double>(image(i, j));
+            flux.add(value);
+            first_x.add(value * (static_cast<double>(i) - middle_x));
+            first_y.add(value * (static_cast<double>(j) - middle_y));
+        }
+    const double total = checked_flux(flux.value());
+    return unweighted_moments(image, middle_x + first_x.value() / total,
+                              middle_y + first_y.value() / total);
+}
+
+template UnweightedMoments unweighted_moments(View<const float>);
+template UnweightedMoments unweighted_moments(View<const double>);
+template UnweightedMoments unweighted_moments(View<const float>, double, double);
+template UnweightedMoments unweighted_moments(View<const double>, double, double);
+
+} // namespace wfpsf

@@ -1,0 +1,28 @@
+# The symbols that the library exports against the committed list, one name a line, sorted.
+execute_process(COMMAND ${NM} -D --defined-only --format=posix ${LIBRARY}
+  OUTPUT_VARIABLE lines COMMAND_ERROR_IS_FATAL ANY)
+string(REGEX MATCHALL "[^\n]+" lines "${lines}")
+set(found)
+foreach(line ${lines})
+  if(line MATCHES " A ") # the name of a version node
+    continue()
+  endif()
+  string(REGEX REPLACE "[@ ].*" "" name "${line}")
+  list(APPEND found ${name})
+endforeach()
+list(SORT found)
+file(STRINGS ${EXPECTED} expected)
+list(SORT expected)
+
+set(extra ${found})
+list(REMOVE_ITEM extra ${expected})
+set(missing ${expected})
+list(REMOVE_ITEM missing ${found})
+if(extra OR missing)
+  message(FATAL_ERROR "exported but not listed: ${extra}\nlisted but not exported: ${missing}")
+endif()
+foreach(name ${found})
+  if(NOT name MATCHES "^wfpsf_")
+    message(FATAL_ERROR "${name}: an exported symbol must begin with wfpsf_")
+  endif()
+endforeach()

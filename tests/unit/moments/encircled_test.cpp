@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "error/error.hpp"
+#include "gaussian_image.hpp"
+#include "moments/encircled.hpp"
+
+#include <gtest/gtest.h>
+#include <limits>
+#include <utility>
+
+namespace wfpsf {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// J1(x)/x
+double jinc(double x) {
+    return x < 1e-8 ? 0.5 : std::cyl_bessel_j(1.0, x) / x;
+}
+
+// An annular pupil of obscuration e in focus, unit flux, with its band edge at `bandwidth` cycles
+// per sample: v = pi bandwidth r.
+struct ObscuredAiry {
+    double bandwidth, e;
+
+    double at(double r) const {
+        const double v = pi * bandwidth * r;
+        const double amplitude = 2 * (jinc(v) - e * e * jinc(e * v)) / (1 - e * e);
+        return amplitude * amplitude * pi * bandwidth * bandwidth * (1 - e * e) / 4;
+    }
+    Plane<double> image(int64_t n, double x0, double y0) const {
+        Plane<double> out(n, n);
+        for (int64_t y = 0; y < n; ++y)
+            for (int64_t x = 0; x < n; ++x)
+                out(x, y) =
+                    at(std::hypot(static_cast<double>(x) - x0, static_cast<double>(y) - y0));
+        return out;
+    }
+    // Born & Wolf, section 8.5, for a full aperture; the cross term by Simpson's rule,
+    // extrapolated.
+    double encircled(double r) const {
+        const double v = pi * bandwidth * r;
+        const auto full = [](double u) {
+            const double j0 = std::cyl_bessel_j(0.0, u), j1 = std::cyl_bessel_j(1.0, u);
+            return 1 - j0 * j0 - j1 * j1;
+        };
+        const auto cross = [&](double t) {
+            return t == 0 ? 0 : std::cyl_bessel_j(1.0, t) * std::cyl_bessel_j(1.0, e * t) / t;
+        };
+        const auto simpson = [&](int n) {
+            double sum = cross(0) + cross(v);
+            for (int i = 1; i < n; ++i)
+                sum += (i % 2 ? 4 : 2) * cross(v * i / n);
+            return sum * v / n / 3;
+        };
+        const double sum = (16 * simpson(2000) - simpson(1000)) / 15;
+        return (full(v) + e * e * full(e * v) - 4 * e * sum) / (1 - e * e);
+    }
+};
+
+TEST(Encircled, ObscuredAiryAgreesWithItsClosedForm) {
+    // The filter sees nothing of the image's border: it is 1e-6 of the peak, so 1e-10 is asked of
+    // radii that stay a filter's length inside, with the border's doubt in the estimate.
+    for (const double bandwidth : {0.1, 0.25, 0.35}) {
+        const ObscuredAiry airy{bandwidth, 0.303};
+        const double x = 150.23, y = 149.61;
+        const Plane<double> image = airy.image(300, x, y);
+        for (const double turns : {0.3, 1.2, 4.0, 10.0}) {
+            const double r = turns / bandwidth;
+            if (r > 100)
+                continue;
+            const EncircledEnergy result =
+                encircled_energy(view_of(image), x, y, r, {.bandwidth = bandwidth});
+            EXPECT_NEAR(result.energy, airy.encircled(r), 1e-11) << bandwidth << " " << r;
+            EXPECT_NEAR(result.density, 2 * pi * r * airy.at(r), 1e-11);
+            EXPECT_LE(std::abs(result.energy - airy.encircled(r)), result.error_estimate);
+            EXPECT_LE(result.error_estimate, 1e-10);
+        }
+        for (const double fraction : {0.3, 0.5, 0.8}) {
+            const EncircledRadius found =
+                encircled_radius(view_of(image), x, y, fraction, 1, {.bandwidth = bandwidth});
+            EXPECT_NEAR(airy.encircled(found.radius), fraction, 1e-11);
+            EXPECT_LE(found.error_estimate, 1e-8);
+        }
+    }
+}
+
+TEST(Encircled, LooserEpsKeepsItsWord) {
+    const ObscuredAiry airy{0.25, 0.2};
+    const Plane<double> image = airy.image(120, 60.4, 59.3);
+    for (double eps = 1e-2; eps > 1e-12; eps /= 10) {
+        const EncircledEnergy result =
+            encircled_energy(view_of(image), 60.4, 59.3, 9.3, {.bandwidth = 0.25, .eps = eps});
+        const double error = std::abs(result.energy - airy.encircled(9.3));
+        EXPECT_LE(error, eps * airy.at(0) * pi * 9.3 * 9.3);
+    }
+}
+
+TEST(Encircled, GaussianIsTheSameInEveryView) {
+    const double sigma = 4, x = 40.3, y = 38.8;
+    const Plane<double> image = gaussian_image(80, 80, gaussian_of(x, y, sigma, 0, 0), 5);
+    const double expected = sigma * std::sqrt(2 * std::log(2.0));
+    const EncircledRadius r = encircled_radius(view_of(image), x, y, 0.5, 5);
+    EXPECT_NEAR(r.radius, expected, 1e-11);
+    const View<const double> flipped{&image(79, 79), 80, 80, -1, -80};
+    EXPECT_NEAR(encircled_radius(flipped, 79 - x, 79 - y, 0.5, 5).radius, expected, 1e-11);
+    Plane<float> single(80, 80);
+    add_gaussian(single.view(), gaussian_of(x, y, sigma, 0, 0), 5);
+    EXPECT_NEAR(encircled_radius(std::as_const(single).view(), x, y, 0.5, 5).radius, expected,
+                1e-5);
+}
+
+// Content above the stated bandwidth shows in the error estimate.
+TEST(Encircled, UndersampledImagesAreFoundOut) {
+    const ObscuredAiry airy{0.45, 0.3};
+    const Plane<double> image = airy.image(60, 30.2, 29.7);
+    const EncircledEnergy result =
+        encircled_energy(view_of(image), 30.2, 29.7, 6.3, {.bandwidth = 0.1});
+    EXPECT_GT(result.error_estimate, 1e-6);
+}
+
+TEST(Encircled, ErrorsNameTheCause) {
+    Plane<double> image = gaussian_image(40, 40, gaussian_of(20, 20, 3, 0, 0));
+    const View<const double> v = view_of(image);
+    const auto thrown = [&](auto call) {
+        try {
+            call();
+        } catch (const Error &error) {
+            return error.status();
+        }
+        return static_cast<wfpsf_status>(WFPSF_OK);
+    };
+    EXPECT_EQ(thrown([&] { encircled_radius(v, 20, 20, 0.5, 3); }), WFPSF_ERROR_SIZE_NOT_REACHED);
+    EXPECT_EQ(thrown([&] { encircled_radius(v, -5, 20, 0.5, 1); }), WFPSF_ERROR_SIZE_NOT_REACHED);
+    EXPECT_EQ(thrown([&] { encircled_energy(v, 20, 20, 19.5); }), WFPSF_ERROR_SIZE_NOT_REACHED);
+    EXPECT_EQ(thrown([&] { encircled_energy(v, 20, 20, -1); }), WFPSF_ERROR_RANGE);
+    EXPECT_EQ(thrown([&] { encircled_radius(v, 20, 20, 0, 1); }), WFPSF_ERROR_RANGE);
+    EXPECT_EQ(thrown([&] { encircled_radius(v, 20, 20, 0.5, 0); }), WFPSF_ERROR_RANGE);
+    EXPECT_EQ(thrown([&] { encircled_energy(v, 20, 20, 1, {.bandwidth = 0.5}); }),
+              WFPSF_ERROR_RANGE);
+    EXPECT_EQ(thrown([&] { encircled_energy(v, 20, 20, 1, {.eps = 0}); }), WFPSF_ERROR_RANGE);
+    EXPECT_EQ(thrown([&] { encircled_energy(v, NAN, 20, 1); }), WFPSF_ERROR_NOT_FINITE);
+    const Plane<double> zero(40, 40);
+    EXPECT_EQ(thrown([&] { encircled_radius(view_of(zero), 20, 20, 0.5, 1); }),
+              WFPSF_ERROR_SIZE_NOT_REACHED);
+    image(3, 3) = std::numeric_limits<double>::infinity();
+    EXPECT_EQ(thrown([&] { encircled_energy(v, 20, 20, 1); }), WFPSF_ERROR_NOT_FINITE);
+}
+
+} // namespace
+} // namespace wfpsf
