@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From pupil to focal plane: the diffracted amplitude
 //     A(theta) = integral over the lit pupil of exp(2 pi i W(u)) exp(2 pi i u . theta / lambda) d2u
-// on a square grid of angles. Two ways that share no code but the matrix product: areal quadrature
-// over a pupil given as geometry, and the matrix Fourier transform of a mask's square pixels.
+// on a square grid of angles. Two ways that share no code: areal quadrature and a nonuniform FFT
+// for a pupil given as geometry, the matrix Fourier transform of a mask's square pixels.
 #pragma once
 
 #include "image/view.hpp"
 #include "instrument/pupil.hpp"
-#include "optics/pupil_nodes.hpp"
 #include "optics/wavefront.hpp"
 
 #include <complex>

@@ -38,7 +38,7 @@ inline Intensity brute_force(const PupilNodes &nodes, const Wavefront &wavefront
     std::vector<std::complex<double>> field(nodes.size());
     double area = 0;
     for (size_t n = 0; n < nodes.size(); ++n) {
-        field[n] = std::polar(nodes.weight[n], 2 * pi * wavefront(nodes.x[n], nodes.y[n]));
+        field[n] = nodes.weight[n] * std::polar(1.0, 2 * pi * wavefront(nodes.x[n], nodes.y[n]));
         area += nodes.weight[n];
     }
     return [=](double x, double y) {

@@ -21,7 +21,7 @@ const SegmentedPupil &c5_pupil() {
 Complex transform(const PupilNodes &nodes, double kx, double ky) {
     Complex sum = 0;
     for (size_t i = 0; i < nodes.size(); ++i)
-        sum += std::polar(nodes.weight[i], kx * nodes.x[i] + ky * nodes.y[i]);
+        sum += nodes.weight[i] * std::polar(1.0, kx * nodes.x[i] + ky * nodes.y[i]);
     return sum;
 }
 

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A pupil given as an image: the matrix Fourier transform of its square pixels, each with the phase
+// of its centre.
+#include "error/error.hpp"
+#include "optics/aperture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include <Eigen/Dense>
+
+namespace wfpsf {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double rounding = 1e-13; // of |A|^2 in units of area^2: sums of 10^4 to 10^7 terms
+using Complex = std::complex<double>;
+using Matrix = Eigen::MatrixXcd;
+
+// exp(i k u angle_j) on the grid (rows) at every coordinate u (columns), by repeated
+// multiplication, started afresh every 32 steps.
+Matrix waves(const FocalGrid &grid, const double *u, int64_t count, double k) {
+    Matrix out(grid.size, count);
+    for (int64_t n = 0; n < count; ++n) {
+        const Complex turn = std::polar(1.0, k * u[n] * grid.step);
+        Complex wave;
+        for (int64_t j = 0; j < grid.size; ++j) {
+            wave = j % 32 == 0 ? std::polar(1.0, k * u[n] * grid.angle(j)) : wave * turn;
+            out(j, n) = wave;
+        }
+    }
+    return out;
+}
+
+Plane<Complex> to_plane(const Matrix &matrix) {
+    Plane<Complex> plane(matrix.rows(), matrix.cols());
+    Eigen::Map<Matrix>(plane.view().data, matrix.rows(), matrix.cols()) = matrix;
+    return plane;
+}
+
+class MaskAperture final : public Aperture {
+  public:
+    MaskAperture(View<const double> mask, double scale, double axis_x, double axis_y)
+        : scale_(scale) {
+        int64_t x0 = mask.nx, x1 = -1, y0 = mask.ny, y1 = -1;
+        for (int64_t y = 0; y < mask.ny; ++y)
+            for (int64_t x = 0; x < mask.nx; ++x) {
+                const double lit = mask(x, y);
+                if (!(lit >= 0 && lit <= 1))
+                    fail(WFPSF_ERROR_RANGE,
+                         "mask pixel (%lld, %lld) = %g: a transmission must be 0..1",
+                         static_cast<long long>(x), static_cast<long long>(y), lit);
+                if (lit == 0)
+                    continue;
+                x0 = std::min(x0, x), x1 = std::max(x1, x);
+                y0 = std::min(y0, y), y1 = std::max(y1, y);
+            }
+        if (x1 < 0)
+            fail(WFPSF_ERROR_ARGUMENT, "mask: no pixel is lit");
+        lit_ = Plane<double>(x1 - x0 + 1, y1 - y0 + 1);
+        for (int64_t y = y0; y <= y1; ++y)
+            for (int64_t x = x0; x <= x1; ++x) {
+                lit_(x - x0, y - y0) = mask(x, y);
+                area_ += mask(x, y) * scale * scale;
+            }
+        for (int64_t x = x0; x <= x1; ++x)
+            u_.push_back((static_cast<double>(x) - axis_x) * scale);
+        for (int64_t y = y0; y <= y1; ++y)
+            v_.push_back((static_cast<double>(y) - axis_y) * scale);
+        diameter_ = static_cast<double>(std::max(lit_.nx(), lit_.ny())) * scale;
+    }
+
+    Amplitude amplitude(const Wavefront &wavefront, double wavelength, const FocalGrid &grid,
+                        double) const override {
+        constexpr int64_t rows = 128;
+        const double k = 2 * pi / wavelength;
+        const Matrix along_x = waves(grid, u_.data(), lit_.nx(), k);
+        Matrix sum = Matrix::Zero(grid.size, grid.size);
+        for (int64_t first = 0; first < lit_.ny(); first += rows) {
+            const int64_t count = std::min(rows, lit_.ny() - first);
+            Matrix field(lit_.nx(), count);
+            for (int64_t y = 0; y < count; ++y)
+                for (int64_t x = 0; x < lit_.nx(); ++x) {
+                    const double lit = lit_(x, first + y);
+                    field(x, y) =
+                        lit == 0
+                            ? Complex(0)
+                            : std::polar(lit, 2 * pi *
+                                                  wavefront(u_[static_cast<size_t>(x)],
+                                                            v_[static_cast<size_t>(first + y)]));
+                }
+            const Matrix along_y = waves(grid, v_.data() + first, count, k);
+            const Matrix transformed = along_x * field;
+            sum.noalias() += transformed * along_y.transpose();
+        }
+        for (int64_t y = 0; y < grid.size; ++y)
+            for (int64_t x = 0; x < grid.size; ++x)
+                sum(x, y) *= square(k * grid.angle(x)) * square(k * grid.angle(y));
+        // One phase a pixel: the wavefront's slope is lost inside it, to second order.
+        const double turn = 2 * pi * wavefront.slope_bound() * scale_;
+        return {to_plane(sum), lit_.nx() * lit_.ny(), rounding, turn * turn / 12};
+    }
+
+  private:
+    // The transform of one pixel's side.
+    double square(double k) const {
+        const double half = k * scale_ / 2;
+        return half == 0 ? scale_ : scale_ * std::sin(half) / half;
+    }
+
+    Plane<double> lit_;
+    std::vector<double> u_, v_; // pixel centres, m
+    double scale_;
+};
+
+} // namespace
+
+std::unique_ptr<const Aperture> make_aperture(View<const double> mask, double scale, double axis_x,
+                                              double axis_y) {
+    return std::make_unique<MaskAperture>(mask, scale, axis_x, axis_y);
+}
+
+} // namespace wfpsf
