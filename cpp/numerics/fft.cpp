@@ -26,7 +26,8 @@ int64_t good_fft_length(int64_t n) {
 
 BackwardFft::BackwardFft(int64_t n) {
     static std::mutex lock;
-    static std::map<int64_t, fftw_plan> plans; // for the life of the process
+    // For the life of the process: never destroyed, so that threads may outlive main().
+    static auto &plans = *new std::map<int64_t, fftw_plan>;
     const std::lock_guard guard(lock);
     fftw_plan &plan = plans[n];
     if (!plan) {

@@ -119,7 +119,7 @@ static void draw_colour_bar(gdImagePtr image, int left, int top, int bottom) {
         gdImageLine(image, right, y, right + TICK, y, black);
         snprintf(exponent, sizeof exponent, "%d", -decade);
         text(image, gdFontGetGiant(), right + TICK + 4, y - 8, "10", black);
-        text(image, gdFontGetSmall(), right + TICK + 23, y - 14, exponent, black);
+        text(image, gdFontGetSmall(), right + TICK + 24, y - 14, exponent, black);
     }
     text_upwards(image, gdFontGetGiant(), right + TICK + 42, (top + bottom) / 2,
                  "PSF / its brightest pixel", black);

@@ -47,8 +47,8 @@ static void test_round_trip(const char *name) {
     fill_noise(data, 35);
     data[3] = NAN, data[4] = -HUGE_VAL, data[5] = 1e-310, data[6] = -0.1;
     wfpsf_image *image = wrap(data, 7, 5), *to = wrap(back, 7, 5), *read = NULL;
-    CHECK_OK(wfpsf_image_set_record(image, 32, 0.11,
-                                    WFPSF_EFFECT_PIXEL_RESPONSE | WFPSF_EFFECT_IPC));
+    CHECK_OK(
+        wfpsf_image_set_record(image, 32, 0.11, WFPSF_EFFECT_PIXEL_RESPONSE | WFPSF_EFFECT_IPC));
     CHECK_OK(wfpsf_image_write_fits(image, path_of(name), NULL));
     CHECK_OK(wfpsf_image_read_fits(path_of(name), NULL, 0, &read));
     int32_t type = 0;
@@ -106,7 +106,6 @@ static void check_unreadable(wfpsf_status status, const char *culprit, const cha
 static void test_bad_files(void) {
     static const char text[] = "This is no FITS file, however long it may go on.\n";
     char block[5760];
-    const char *plain = path_of("plain.fits");
     check_unreadable(WFPSF_ERROR_FILE_OPEN, "absent.fits", path_of("absent.fits"), NULL);
     check_unreadable(WFPSF_ERROR_FILE_OPEN, "plain.fits[0]", path_of("plain.fits[0]"), NULL);
     check_unreadable(WFPSF_ERROR_FILE_OPEN, folder, folder, NULL);
@@ -120,7 +119,7 @@ static void test_bad_files(void) {
         check_unreadable(WFPSF_ERROR_FILE_OPEN, "text.fits", path_of("text.fits"), NULL);
     }
 
-    FILE *file = fopen(plain, "rb");
+    FILE *file = fopen(path_of("plain.fits"), "rb");
     CHECK(file && fread(block, 1, sizeof block, file) == sizeof block);
     CHECK(file && fclose(file) == 0);
     static const size_t lengths[] = {1, 79, 2000, 2880, 2881, 3100};
@@ -130,14 +129,15 @@ static void test_bad_files(void) {
                          NULL);
     }
 
-    check_unreadable(WFPSF_ERROR_FILE_FORMAT, "PSF", plain, "PSF");
-    check_unreadable(WFPSF_ERROR_FILE_FORMAT, "HDU 3", plain, "3");
-    check_unreadable(WFPSF_ERROR_FILE_FORMAT, "-1", plain, "-1");
+    check_unreadable(WFPSF_ERROR_FILE_FORMAT, "PSF", path_of("plain.fits"), "PSF");
+    check_unreadable(WFPSF_ERROR_FILE_FORMAT, "HDU 3", path_of("plain.fits"), "3");
+    check_unreadable(WFPSF_ERROR_FILE_FORMAT, "-1", path_of("plain.fits"), "-1");
     check_unreadable(WFPSF_ERROR_NULL, "path", NULL, NULL);
-    CHECK_FAILS(WFPSF_ERROR_NULL, "out", wfpsf_image_read_fits(plain, NULL, 0, NULL));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "out",
+                wfpsf_image_read_fits(path_of("plain.fits"), NULL, 0, NULL));
     wfpsf_image *image = STALE(wfpsf_image);
     CHECK_FAILS(WFPSF_ERROR_ARGUMENT, "pixel_type = 16",
-                wfpsf_image_read_fits(plain, NULL, 16, &image));
+                wfpsf_image_read_fits(path_of("plain.fits"), NULL, 16, &image));
     CHECK(image == NULL);
 }
 

@@ -141,7 +141,8 @@ static void test_record(void) {
 static void test_copy(void) {
     double data[6] = {0.1, 2, -3, NAN, HUGE_VAL, 1e-300}, back[6], other[8];
     float narrow[6];
-    wfpsf_image *from = wrap(data, 3, 2), *single = wrap_float(narrow, 3, 2), *to = wrap(back, 3, 2);
+    wfpsf_image *from = wrap(data, 3, 2), *single = wrap_float(narrow, 3, 2),
+                *to = wrap(back, 3, 2);
     CHECK_OK(wfpsf_image_set_record(from, 4, 0.5, WFPSF_EFFECT_IPC));
     CHECK_OK(wfpsf_image_copy(from, single));
     CHECK_OK(wfpsf_image_copy(single, to));
@@ -164,7 +165,8 @@ static void test_copy(void) {
 
     wfpsf_image *none = wrap(NULL, 0, 3), *nothing = wrap(NULL, 0, 3);
     CHECK_OK(wfpsf_image_copy(none, nothing));
-    wfpsf_image *const all[] = {from, single, to, larger, shifted, square, transposed, none, nothing};
+    wfpsf_image *const all[] = {from,   single,     to,   larger, shifted,
+                                square, transposed, none, nothing};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i)
         wfpsf_image_destroy(all[i]);
 }

@@ -33,8 +33,7 @@ static void test_constants(const wfpsf_instrument *c5) {
                 wfpsf_instrument_constant(NULL, "diameter", &value, &unit));
     CHECK_FAILS(WFPSF_ERROR_NULL, "name", wfpsf_instrument_constant(c5, NULL, &value, &unit));
     CHECK(value == 7 && strcmp(unit, "before") == 0);
-    CHECK_FAILS(WFPSF_ERROR_NULL, "value",
-                wfpsf_instrument_constant(c5, "diameter", NULL, &unit));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "value", wfpsf_instrument_constant(c5, "diameter", NULL, &unit));
     CHECK(strcmp(unit, "before") == 0);
 
     int64_t count = 0;

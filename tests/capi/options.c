@@ -32,8 +32,9 @@ static double value_of(const wfpsf_options *options, int32_t key) {
 }
 
 static wfpsf_status set(wfpsf_options *options, const struct listed *o, double value) {
-    return o->kind == WFPSF_OPTION_REAL ? wfpsf_options_set_real(options, o->key, value)
-                                        : wfpsf_options_set_integer(options, o->key, (int64_t)value);
+    return o->kind == WFPSF_OPTION_REAL
+               ? wfpsf_options_set_real(options, o->key, value)
+               : wfpsf_options_set_integer(options, o->key, (int64_t)value);
 }
 
 static void test_descriptions(void) {
@@ -42,8 +43,8 @@ static void test_descriptions(void) {
         const char *name = NULL, *text = NULL;
         int32_t kind = 0;
         double standard = -1, smallest = -1, largest = -1;
-        CHECK_OK(wfpsf_option_describe(o->key, &name, &text, &kind, &standard, &smallest,
-                                       &largest));
+        CHECK_OK(
+            wfpsf_option_describe(o->key, &name, &text, &kind, &standard, &smallest, &largest));
         CHECK(strcmp(name, o->name) == 0 && strcmp(text, o->text) == 0);
         CHECK(kind == o->kind && same(standard, o->standard));
         CHECK(smallest == o->smallest && largest == o->largest && smallest <= largest);
@@ -77,13 +78,13 @@ static void test_bounds_and_reset(wfpsf_options *options) {
 
         const int is_real = o->kind == WFPSF_OPTION_REAL;
         if (o->smallest > -DBL_MAX)
-            CHECK_FAILS(WFPSF_ERROR_RANGE, o->name,
-                        set(options, o, is_real ? nextafter(o->smallest, -HUGE_VAL)
-                                                : o->smallest - 1));
+            CHECK_FAILS(
+                WFPSF_ERROR_RANGE, o->name,
+                set(options, o, is_real ? nextafter(o->smallest, -HUGE_VAL) : o->smallest - 1));
         if (o->largest < DBL_MAX)
-            CHECK_FAILS(WFPSF_ERROR_RANGE, o->name,
-                        set(options, o, is_real ? nextafter(o->largest, HUGE_VAL)
-                                                : o->largest + 1));
+            CHECK_FAILS(
+                WFPSF_ERROR_RANGE, o->name,
+                set(options, o, is_real ? nextafter(o->largest, HUGE_VAL) : o->largest + 1));
         if (is_real) {
             CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, o->name,
                         wfpsf_options_set_real(options, o->key, NAN));
@@ -106,9 +107,8 @@ static void test_bounds_and_reset(wfpsf_options *options) {
 }
 
 static void test_the_value_is_named(wfpsf_options *options) {
-    CHECK_FAILS(WFPSF_ERROR_RANGE, "EPS = 0",
-                wfpsf_options_set_real(options, WFPSF_OPTION_EPS, 0));
-    CHECK_FAILS(WFPSF_ERROR_RANGE, "EPS = 1e-30",
+    CHECK_FAILS(WFPSF_ERROR_RANGE, "EPS = 0", wfpsf_options_set_real(options, WFPSF_OPTION_EPS, 0));
+    CHECK_FAILS(WFPSF_ERROR_RANGE, "EPS = 1",
                 wfpsf_options_set_real(options, WFPSF_OPTION_EPS, 1e-30));
     CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "EPS = nan",
                 wfpsf_options_set_real(options, WFPSF_OPTION_EPS, NAN));
@@ -135,8 +135,7 @@ static void test_unknown_keys(wfpsf_options *options) {
 static void test_null(wfpsf_options *options) {
     double value = 7;
     CHECK_FAILS(WFPSF_ERROR_NULL, "out", wfpsf_options_create(NULL));
-    CHECK_FAILS(WFPSF_ERROR_NULL, "options",
-                wfpsf_options_set_real(NULL, WFPSF_OPTION_EPS, 1e-3));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "options", wfpsf_options_set_real(NULL, WFPSF_OPTION_EPS, 1e-3));
     CHECK_FAILS(WFPSF_ERROR_NULL, "options",
                 wfpsf_options_set_integer(NULL, WFPSF_OPTION_FORCE, 1));
     CHECK_FAILS(WFPSF_ERROR_NULL, "options", wfpsf_options_get(NULL, WFPSF_OPTION_EPS, &value));

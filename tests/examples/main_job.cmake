@@ -1,9 +1,9 @@
 # Runs the C main job into a fresh folder and looks at what it leaves; then into a folder that
 # cannot be made.
 file(REMOVE_RECURSE ${OUT})
-execute_process(COMMAND ${PROGRAM} ${OUT} ERROR_VARIABLE errors COMMAND_ERROR_IS_FATAL ANY)
-if(errors)
-  message(FATAL_ERROR "a run without errors wrote to stderr: ${errors}")
+execute_process(COMMAND ${PROGRAM} ${OUT} RESULT_VARIABLE code ERROR_VARIABLE errors)
+if(errors OR NOT code EQUAL 0)
+  message(FATAL_ERROR "exit code ${code}, on stderr: \"${errors}\"")
 endif()
 
 set(files psf_Z087.fits psf_Y106.fits psf_J129.fits psf_W149.fits psf_H158.fits psf_F184.fits)

@@ -119,7 +119,7 @@ module wfpsf
     end type wfpsf_moments
 
     ! Common to all.
-    private :: is_empty, refuse_assignment
+    private :: is_empty, refuse_assignment, pointer_of
     interface
         ! True before create and after destroy.
         pure module function is_empty(self)
@@ -132,6 +132,12 @@ module wfpsf
             class(handle), intent(inout) :: self
             class(handle), intent(in) :: other
         end subroutine refuse_assignment
+
+        ! NULL for options that are left out.
+        module function pointer_of(options) result(pointer)
+            type(wfpsf_options), intent(in), optional :: options
+            type(c_ptr) :: pointer
+        end function pointer_of
 
         ! Fails if the loaded library's binary interface is not the one these modules describe.
         module subroutine wfpsf_check_version(stat, errmsg)

@@ -64,11 +64,11 @@ end
 
 States the record of an image whose pixels come from elsewhere; what is not given stays.
 """
-function set_record!(image::Image; keywords...)
-    stated = merge(record(image), keywords)
-    applied = mapreduce(name -> choose(EFFECTS, :applied, name), |, stated.applied; init = Int32(0))
-    check(LibWfpsf.wfpsf_image_set_record(image, stated.oversampling, stated.pixel_scale_arcsec,
-                                          applied))
+function set_record!(image::Image; oversampling::Integer = record(image).oversampling,
+                     pixel_scale_arcsec::Real = record(image).pixel_scale_arcsec,
+                     applied = record(image).applied)
+    bits = mapreduce(name -> choose(EFFECTS, :applied, name), |, applied; init = Int32(0))
+    check(LibWfpsf.wfpsf_image_set_record(image, oversampling, pixel_scale_arcsec, bits))
     return image
 end
 

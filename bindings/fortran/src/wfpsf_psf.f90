@@ -1,0 +1,48 @@
+! SPDX-License-Identifier: GPL-3.0-or-later
+submodule(wfpsf) wfpsf_psf_procedures
+    use wfpsf_c
+    use wfpsf_common, only: report
+    implicit none
+
+contains
+
+    module procedure psf_create
+        type(c_ptr) :: created
+        integer :: status
+
+        status = wfpsf_psf_create(instrument%pointer, sca, wavelength_nm, pointer_of(options), &
+            created)
+        call self%destroy()
+        self%pointer = created
+        call report(status, stat, errmsg)
+    end procedure psf_create
+
+    module procedure psf_create_from_mask
+        type(c_ptr) :: created
+        integer :: status
+
+        status = wfpsf_psf_create_from_mask(instrument%pointer, mask%pointer, mask_scale_m, &
+            axis_x - 1, axis_y - 1, sca, wavelength_nm, pointer_of(options), created)
+        call self%destroy()
+        self%pointer = created
+        call report(status, stat, errmsg)
+    end procedure psf_create_from_mask
+
+    module procedure psf_destroy
+        call wfpsf_psf_destroy(self%pointer)
+        self%pointer = c_null_ptr
+    end procedure psf_destroy
+
+    module procedure psf_draw
+        call report(wfpsf_psf_draw(self%pointer, x - 1, y - 1, flux, image%pointer), stat, errmsg)
+    end procedure psf_draw
+
+    module procedure psf_get
+        call report(wfpsf_psf_get(self%pointer, key, value), stat, errmsg)
+    end procedure psf_get
+
+    module procedure psf_finalize
+        call self%destroy()
+    end procedure psf_finalize
+
+end submodule wfpsf_psf_procedures

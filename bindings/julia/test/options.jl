@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+known = Dict(option.name => option for option in options())
+@test known[:eps].default == 1e-6
+@test known[:struts].integer
+@test known[:moments_guess_sigma].default === nothing
+@test occursin("first pixel at 1", known[:moments_guess_x].text)
+
+# Every option is taken by some function, and no function takes an unknown one.
+taken = (Wfpsf.PSF_OPTIONS..., Wfpsf.MOMENTS_OPTIONS..., Wfpsf.SIZE_OPTIONS..., :kernel_negative,
+         :kernel_normalise, :ipc_fill, :force, :fits_overwrite)
+@test issetequal(taken, (keys(known)..., :zernikes))
+
+instrument = Instrument()
+@test_throws ArgumentError PSF(instrument, 7, 1292; moments_tolerance = 1e-3)
+@test status_of(() -> PSF(instrument, 7, 1292; eps = 1)) == LibWfpsf.WFPSF_ERROR_RANGE
+@test status_of(() -> PSF(instrument, 7, 1292; eps = NaN)) == LibWfpsf.WFPSF_ERROR_NOT_FINITE
+@test_throws InexactError PSF(instrument, 7, 1292; struts = 0.5)
+@test PSF(psf -> psf.radius, instrument, 7, 1292; psf_radius = 5, struts = false, eps = nothing) >= 5
+
+Wfpsf.Options() do handle
+    stored = Ref{Float64}()
+    for (name, expected) in (:moments_guess_x => 9, :moments_guess_y => 9,
+                             :moments_guess_sigma => 10)
+        Wfpsf.set!(handle, name, 10)
+        LibWfpsf.wfpsf_options_get(handle, Wfpsf.OPTIONS[name], stored)
+        @test stored[] == expected
+    end
+end

@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+
+instrument = Instrument()
+psf = PSF(instrument, 7, 1292; eps = 1e-5, psf_radius = 8)
+
+@test psf.wavelength_nm == 1292
+@test 0 < psf.error_estimate <= 1e-5
+@test issetequal(propertynames(psf), keys(Wfpsf.PSF_PROPERTIES))
+@test_throws ArgumentError psf.colour
+
+# A PSF outlives its instrument.
+close(instrument)
+star = draw(psf, 15, 17; oversampling = 3, flux = 2)
+@test record(star) == (oversampling = 3, pixel_scale_arcsec = psf.pixel_scale_arcsec,
+                       applied = [:pixel_response])
+@test star.pixels == draw!(Image(Float64, 15, 17; oversampling = 3), psf, 8, 9; flux = 2).pixels
+@test draw(psf, 15, 17; oversampling = 3).pixels ≈ star.pixels / 2
+
+# A star moved by whole pixels is the same star.
+moved = draw(psf, 19, 20; x = 8 + 4, y = 9 + 2, oversampling = 3, flux = 2)
+@test maximum(abs, moved.pixels[5:19, 3:19] - star.pixels) < 3e-5 * maximum(star.pixels)
+
+@test status_of(() -> draw!(star, psf, 8, 9; flux = NaN)) == LibWfpsf.WFPSF_ERROR_NOT_FINITE
+@test status_of(() -> PSF(Instrument(), 0, 1292)) == LibWfpsf.WFPSF_ERROR_RANGE
+
+@testset "threads" begin
+    stamps = Vector{Matrix{Float64}}(undef, 16)
+    Threads.@threads for k = 1:16
+        stamps[k] = draw(psf, 15, 17; oversampling = 3, flux = 2).pixels
+    end
+    @test all(stamp == star.pixels for stamp in stamps)
+end
+
+@testset "mask" begin
+    # The bare annulus as squares. Under a strong defocus an axis that is a pixel off shifts the PSF.
+    instrument = Instrument()
+    diameter = constant(instrument, "diameter").value
+    obscuration = constant(instrument, "obscuration").value
+    n, scale = 301, diameter / 280
+    lit(x, y) = obscuration <= hypot(x - 151, y - 151) * scale / (diameter / 2) <= 1
+    mask = Image(Float64[lit(x, y) for x = 1:n, y = 1:n])
+    defocus = (zernikes = [0, 0, 0, 1], psf_radius = 8, eps = 1e-4)
+    expected = draw(PSF(instrument, 7, 1292; struts = false, defocus...), 32, 32; oversampling = 4)
+    difference(axis_x) = maximum(abs, expected.pixels - draw(
+        PSF(instrument, 7, 1292, mask; mask_scale_m = scale, axis_x = axis_x, axis_y = 151,
+            defocus...), 32, 32; oversampling = 4).pixels) / maximum(expected.pixels)
+    @test difference(151) < 0.01
+    @test difference(152) > 0.03
+end

@@ -1,0 +1,153 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later */
+/* Encircled energy, EE50 and FWHM of a Gaussian, and what is refused. */
+#include "pixels.h"
+
+enum { nx = 81, ny = 79 };
+static const double star_x = 40.3, star_y = 38.6, sigma = 5, pi = 3.14159265358979323846;
+
+static wfpsf_options *options;
+
+static void test_gaussian(const wfpsf_image *image) {
+    double value = 0, error = 1;
+    const double half = sigma * sqrt(2 * log(2));
+    for (double r = 0; r < 30; r += 7.5) {
+        CHECK_OK(wfpsf_size_encircled_energy(image, star_x, star_y, r, options, &value, &error));
+        CHECK_NEAR(value, 1 - exp(-r * r / (2 * sigma * sigma)), 1e-10);
+        CHECK(error >= 0 && error < 1e-9);
+    }
+    CHECK_OK(wfpsf_size_ee_radius(image, star_x, star_y, 0.5, WFPSF_SIZE_BANDLIMITED, options,
+                                  &value, &error));
+    CHECK_NEAR(value, half, 1e-9);
+    CHECK(error >= 0 && error < 1e-8);
+    CHECK_OK(wfpsf_size_ee_radius(image, star_x, star_y, 0.5, WFPSF_SIZE_PIXEL_SUM, options, &value,
+                                  &error));
+    CHECK_NEAR(value, half, 0.3);
+    CHECK(isnan(error));
+    CHECK_OK(wfpsf_size_ee_radius(image, star_x, star_y, 0.5, WFPSF_SIZE_PIXEL_INTERPOLATED,
+                                  options, &value, &error));
+    CHECK_NEAR(value, half, 0.3);
+    CHECK(isnan(error));
+    CHECK_OK(
+        wfpsf_size_ee_radius(image, star_x, star_y, 0.5, WFPSF_SIZE_PIXEL_SUM, NULL, &value, NULL));
+    CHECK_OK(wfpsf_size_fwhm(image, star_x, star_y, &value));
+    CHECK_NEAR(value, 2 * half, 0.5);
+}
+
+/* A stated total scales the fraction; without it the sum of the pixels counts. */
+static void test_total(const wfpsf_image *image) {
+    double value = 0;
+    CHECK_OK(wfpsf_size_encircled_energy(image, star_x, star_y, 10, NULL, &value, NULL));
+    CHECK_NEAR(value, 1 - exp(-2), 1e-10);
+    CHECK_OK(wfpsf_options_set_real(options, WFPSF_OPTION_SIZE_TOTAL_FLUX, 4 * pi * sigma * sigma));
+    CHECK_OK(wfpsf_size_encircled_energy(image, star_x, star_y, 10, options, &value, NULL));
+    CHECK_NEAR(value, (1 - exp(-2)) / 2, 1e-10);
+    CHECK_FAILS(WFPSF_ERROR_SIZE_NOT_REACHED, "0.6",
+                wfpsf_size_ee_radius(image, star_x, star_y, 0.6, WFPSF_SIZE_BANDLIMITED, options,
+                                     &value, NULL));
+    CHECK_STATUS(WFPSF_ERROR_SIZE_NOT_REACHED,
+                 wfpsf_size_ee_radius(image, star_x, star_y, 0.6, WFPSF_SIZE_PIXEL_SUM, options,
+                                      &value, NULL));
+    CHECK_STATUS(WFPSF_ERROR_SIZE_NOT_REACHED,
+                 wfpsf_size_ee_radius(image, star_x, star_y, 0.6, WFPSF_SIZE_PIXEL_INTERPOLATED,
+                                      options, &value, NULL));
+    CHECK_OK(wfpsf_options_reset(options, WFPSF_OPTION_SIZE_TOTAL_FLUX));
+}
+
+static void check_energy_refused(wfpsf_status status, const char *culprit, const wfpsf_image *image,
+                                 double x, double y, double radius) {
+    double value = 7, error = 7;
+    CHECK_FAILS(status, culprit,
+                wfpsf_size_encircled_energy(image, x, y, radius, NULL, &value, &error));
+    CHECK(value == 7 && error == 7);
+}
+
+static void check_radius_refused(wfpsf_status status, const char *culprit, const wfpsf_image *image,
+                                 double x, double y, double fraction, int32_t method) {
+    double value = 7, error = 7;
+    CHECK_FAILS(status, culprit,
+                wfpsf_size_ee_radius(image, x, y, fraction, method, NULL, &value, &error));
+    CHECK(value == 7 && error == 7);
+}
+
+static void test_refuses(const wfpsf_image *image) {
+    const int32_t exact = WFPSF_SIZE_BANDLIMITED;
+    double value = 7, error = 7;
+    check_energy_refused(WFPSF_ERROR_NULL, "image", NULL, star_x, star_y, 5);
+    check_energy_refused(WFPSF_ERROR_NOT_FINITE, "x = nan", image, NAN, star_y, 5);
+    check_energy_refused(WFPSF_ERROR_NOT_FINITE, "y = inf", image, star_x, HUGE_VAL, 5);
+    check_energy_refused(WFPSF_ERROR_NOT_FINITE, "radius = nan", image, star_x, star_y, NAN);
+    check_energy_refused(WFPSF_ERROR_RANGE, "radius = -1", image, star_x, star_y, -1);
+    check_energy_refused(WFPSF_ERROR_SIZE_NOT_REACHED, "radius = 39.5", image, star_x, star_y,
+                         39.5);
+    check_energy_refused(WFPSF_ERROR_SIZE_NOT_REACHED, "radius = 1", image, -5, star_y, 1);
+    CHECK_FAILS(WFPSF_ERROR_NULL, "fraction",
+                wfpsf_size_encircled_energy(image, star_x, star_y, 5, NULL, NULL, &error));
+
+    check_radius_refused(WFPSF_ERROR_NULL, "image", NULL, star_x, star_y, 0.5, exact);
+    check_radius_refused(WFPSF_ERROR_NOT_FINITE, "x = inf", image, HUGE_VAL, star_y, 0.5, exact);
+    check_radius_refused(WFPSF_ERROR_NOT_FINITE, "y = nan", image, star_x, NAN, 0.5, exact);
+    check_radius_refused(WFPSF_ERROR_NOT_FINITE, "fraction = nan", image, star_x, star_y, NAN,
+                         exact);
+    check_radius_refused(WFPSF_ERROR_RANGE, "fraction = 0", image, star_x, star_y, 0, exact);
+    check_radius_refused(WFPSF_ERROR_RANGE, "fraction = 1", image, star_x, star_y, 1, exact);
+    check_radius_refused(WFPSF_ERROR_RANGE, "fraction = -0.5", image, star_x, star_y, -0.5, exact);
+    check_radius_refused(WFPSF_ERROR_ARGUMENT, "method = 0", image, star_x, star_y, 0.5, 0);
+    check_radius_refused(WFPSF_ERROR_ARGUMENT, "method = 4", image, star_x, star_y, 0.5, 4);
+    check_radius_refused(WFPSF_ERROR_SIZE_NOT_REACHED, "-9", image, -9, star_y, 0.5, exact);
+    CHECK_FAILS(WFPSF_ERROR_NULL, "radius",
+                wfpsf_size_ee_radius(image, star_x, star_y, 0.5, exact, NULL, NULL, &error));
+
+    CHECK_FAILS(WFPSF_ERROR_NULL, "image", wfpsf_size_fwhm(NULL, star_x, star_y, &value));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "fwhm", wfpsf_size_fwhm(image, star_x, star_y, NULL));
+    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "x = nan", wfpsf_size_fwhm(image, NAN, star_y, &value));
+    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "y = -inf",
+                wfpsf_size_fwhm(image, star_x, -HUGE_VAL, &value));
+    CHECK(value == 7 && error == 7);
+}
+
+/* Images without light, with a NaN, or without pixels. */
+static void test_bad_pixels(void) {
+    double data[25], value = 7;
+    wfpsf_image *image = wrap(data, 5, 5), *none = wrap(NULL, 0, 0);
+    fill(data, 25, 0);
+    for (int round = 0; round < 2; ++round) {
+        check_energy_refused(WFPSF_ERROR_MOMENTS_FLUX, "= ", image, 2, 2, 1);
+        for (int32_t method = 1; method <= 3; ++method)
+            check_radius_refused(WFPSF_ERROR_MOMENTS_FLUX, "= ", image, 2, 2, 0.5, method);
+        CHECK_STATUS(WFPSF_ERROR_MOMENTS_FLUX, wfpsf_size_fwhm(image, 2, 2, &value));
+        fill(data, 25, -1);
+    }
+    fill(data, 25, 1);
+    CHECK_STATUS(WFPSF_ERROR_SIZE_NOT_REACHED, wfpsf_size_fwhm(image, 2, 2, &value));
+    data[7] = NAN;
+    check_energy_refused(WFPSF_ERROR_NOT_FINITE, "nan", image, 2, 2, 1);
+    for (int32_t method = 1; method <= 3; ++method)
+        check_radius_refused(WFPSF_ERROR_NOT_FINITE, "nan", image, 2, 2, 0.5, method);
+    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "(2, 1) = nan", wfpsf_size_fwhm(image, 2, 2, &value));
+
+    check_energy_refused(WFPSF_ERROR_MOMENTS_FLUX, "", none, 0, 0, 0);
+    for (int32_t method = 1; method <= 3; ++method)
+        check_radius_refused(WFPSF_ERROR_MOMENTS_FLUX, "", none, 0, 0, 0.5, method);
+    CHECK_STATUS(WFPSF_ERROR_MOMENTS_FLUX, wfpsf_size_fwhm(none, 0, 0, &value));
+    CHECK(value == 7);
+    wfpsf_image_destroy(image);
+    wfpsf_image_destroy(none);
+}
+
+int main(void) {
+    static double data[nx * ny], flipped[nx * ny];
+    fill_gaussian(data, nx, ny, star_x, star_y, sigma * sigma, 0, sigma * sigma);
+    for (int i = 0; i < nx * ny; ++i)
+        flipped[nx * ny - 1 - i] = data[i];
+    CHECK_OK(wfpsf_options_create(&options));
+    wfpsf_image *image = wrap(data, nx, ny), *backward = wrap_flipped(flipped, nx, ny);
+    test_gaussian(image);
+    test_gaussian(backward);
+    test_total(image);
+    test_refuses(image);
+    test_bad_pixels();
+    wfpsf_image_destroy(image);
+    wfpsf_image_destroy(backward);
+    wfpsf_options_destroy(options);
+    return checked();
+}
