@@ -28,7 +28,7 @@ double kernel(double beta, double z) {
 
 int width_for(double eps) {
     const double digits = -std::log10(std::max(eps, nufft_best_eps));
-    return std::clamp(static_cast<int>(std::ceil(digits)) + 2, narrowest, widest);
+    return std::clamp(static_cast<int>(std::ceil(digits + 1.4)), narrowest, widest);
 }
 
 double beta_for(int width) {

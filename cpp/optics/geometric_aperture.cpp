@@ -42,26 +42,28 @@ Plane<Complex> transform(const PupilNodes &nodes, const Wavefront &wavefront, do
 
 // Grid indices on each axis at which an amplitude is checked, all pairs of them: errors grow
 // outwards, so mostly near the border.
-std::array<int64_t, 4> probes(const FocalGrid &grid) {
-    const double half = grid.half();
-    return {0, std::llround(0.4 * half), std::llround(1.8 * half), grid.size - 1};
+constexpr size_t per_axis = 3;
+using Probes = std::array<Complex, per_axis * per_axis>; // y * per_axis + x
+
+std::array<int64_t, per_axis> probes(const FocalGrid &grid) {
+    return {0, std::llround(1.7 * grid.half()), grid.size - 1};
 }
 
-// The amplitude at the probes by plain summation: probe y * 4 + x.
-std::array<Complex, 16> sum_at_probes(const PupilNodes &nodes, const Wavefront &wavefront,
-                                      double wavelength, const FocalGrid &grid) {
+// The amplitude at the probes by plain summation.
+Probes sum_at_probes(const PupilNodes &nodes, const Wavefront &wavefront, double wavelength,
+                     const FocalGrid &grid) {
     const double k = 2 * pi / wavelength;
-    const std::array<int64_t, 4> at = probes(grid);
+    const std::array<int64_t, per_axis> at = probes(grid);
     const std::vector<Complex> field = sources(nodes, wavefront);
-    std::array<Complex, 16> sums{};
+    Probes sums{};
     for (size_t n = 0; n < nodes.size(); ++n) {
-        std::array<Complex, 4> along_x, along_y;
-        for (size_t j = 0; j < 4; ++j) {
+        std::array<Complex, per_axis> along_x, along_y;
+        for (size_t j = 0; j < per_axis; ++j) {
             along_x[j] = std::polar(1.0, k * nodes.x[n] * grid.angle(at[j]));
             along_y[j] = field[n] * std::polar(1.0, k * nodes.y[n] * grid.angle(at[j]));
         }
-        for (size_t j = 0; j < 16; ++j)
-            sums[j] += along_x[j % 4] * along_y[j / 4];
+        for (size_t j = 0; j < sums.size(); ++j)
+            sums[j] += along_x[j % per_axis] * along_y[j / per_axis];
     }
     return sums;
 }
@@ -86,8 +88,8 @@ template <class Pupil> class GeometricAperture final : public Aperture {
         // than the amplitude: start loosely and let the check decide.
         for (double asked = std::min(0.1, 30 * eps);;) {
             const PupilNodes nodes = pupil_nodes(pupil_, wavenumber, asked);
-            Plane<Complex> value = transform(nodes, wavefront, wavelength, grid, eps / 8);
-            const double error = check(value, pupil_nodes(pupil_, wavenumber, asked * 1e-3),
+            Plane<Complex> value = transform(nodes, wavefront, wavelength, grid, eps / 4);
+            const double error = check(value, pupil_nodes(pupil_, wavenumber, asked * 1e-2),
                                        wavefront, wavelength, grid);
             if (error <= eps || asked < 1e-17)
                 return {std::move(value), static_cast<int64_t>(nodes.size()), error, fit_error_};
@@ -99,12 +101,12 @@ template <class Pupil> class GeometricAperture final : public Aperture {
     // Four times the largest difference of |A|^2 from a finer quadrature that is summed plainly.
     double check(const Plane<Complex> &value, const PupilNodes &finer, const Wavefront &wavefront,
                  double wavelength, const FocalGrid &grid) const {
-        const std::array<int64_t, 4> at = probes(grid);
-        const std::array<Complex, 16> truth = sum_at_probes(finer, wavefront, wavelength, grid);
+        const std::array<int64_t, per_axis> at = probes(grid);
+        const Probes truth = sum_at_probes(finer, wavefront, wavelength, grid);
         double worst = 0;
-        for (size_t j = 0; j < 16; ++j)
-            worst = std::max(
-                worst, std::abs(std::norm(value(at[j % 4], at[j / 4])) - std::norm(truth[j])));
+        for (size_t j = 0; j < truth.size(); ++j)
+            worst = std::max(worst, std::abs(std::norm(value(at[j % per_axis], at[j / per_axis])) -
+                                             std::norm(truth[j])));
         return 4 * worst / (area_ * area_) + rounding;
     }
 

@@ -4,6 +4,7 @@
 #include "error/error.hpp"
 #include "numerics/quadrature.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -136,8 +137,9 @@ PupilNodes pupil_nodes(const SegmentedPupil &pupil, double wavenumber, double ep
     const Rim outer{pupil.outer, -1}, inner{pupil.obscuration, 1};
     const double width = (pupil.outer.radius - pupil.obscuration.radius) / 2;
     const GaussLegendre across(gauss_legendre_points(wavenumber * width, eps));
-    const GaussLegendre corner(2 +
-                               gauss_legendre_points(wavenumber * pupil.corner_radius, 100 * eps));
+    // All slivers together are a thousandth of the lit area.
+    const GaussLegendre corner(
+        2 + gauss_legendre_points(wavenumber * pupil.corner_radius, std::min(0.1, 1000 * eps)));
     PupilNodes nodes;
     for (const PupilSegment &segment : pupil.segments) {
         const HalfPlane &cw = segment.clockwise_edge, &ccw = segment.counterclockwise_edge;
