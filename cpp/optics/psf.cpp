@@ -12,8 +12,9 @@ namespace wfpsf {
 namespace {
 
 // The intensity holds no frequency above diameter / wavelength. Sampling it at twice Nyquist's rate
-// keeps the filters short.
-constexpr double bandwidth = 0.25; // cycles per sample
+// or somewhat finer keeps the filters short; a whole number of samples a native pixel lets all
+// pixels of a stamp share one filter.
+constexpr double widest_band = 0.25; // cycles per sample
 
 constexpr double largest_reach = 4096; // native pixels
 
@@ -22,7 +23,8 @@ constexpr double largest_reach = 4096; // native pixels
 Psf::Psf(std::shared_ptr<const Aperture> aperture, const Wavefront &wavefront,
          const PsfSettings &settings)
     : aperture_(std::move(aperture)), wavefront_(wavefront), settings_(settings),
-      step_(bandwidth * settings.wavelength / aperture_->diameter()),
+      per_pixel_(static_cast<int64_t>(std::ceil(aperture_->diameter() * settings.pixel_scale /
+                                                (widest_band * settings.wavelength)))),
       field_(make_field(settings.radius)) {}
 
 // All errors arise in units of the unaberrated peak before the pixel's average; eps counts in the
@@ -43,13 +45,14 @@ Psf::Field Psf::make_field(double radius) const {
 // `tolerance` in units of the unaberrated peak.
 Psf::Field Psf::make_field(double radius, double tolerance) const {
     // The filters for the pixel's average and for the interpolation err along two axes each.
+    const double bandwidth = aperture_->diameter() * grid_step() / settings_.wavelength;
     Field field(BandlimitedInterpolator(bandwidth, tolerance / 8));
-    const std::vector<double> pixel =
-        field.interpolator.averaging_filter(settings_.pixel_scale / step_);
+    const auto per_pixel = static_cast<double>(per_pixel_);
+    const std::vector<double> pixel = field.interpolator.averaging_filter(per_pixel);
     const auto margin = static_cast<int64_t>(pixel.size()) / 2;
-    const auto reach = static_cast<int64_t>(std::ceil(radius * settings_.pixel_scale / step_)) +
-                       field.interpolator.half_width();
-    const FocalGrid grid{2 * (reach + margin) + 1, step_};
+    const auto reach =
+        static_cast<int64_t>(std::ceil(radius * per_pixel)) + field.interpolator.half_width();
+    const FocalGrid grid{2 * (reach + margin) + 1, grid_step()};
     const Amplitude amplitude =
         aperture_->amplitude(wavefront_, settings_.wavelength, grid, tolerance / 2);
     Plane<double> intensity(grid.size, grid.size);
@@ -98,12 +101,9 @@ void Psf::draw_from(const Field &field, double x, double y, double flux, int64_t
     const auto n = static_cast<double>(oversampling);
 
     const double centre = static_cast<double>(field.value.nx() - 1) / 2;
-    const double samples = settings_.pixel_scale / (n * step_); // grid samples an image sample
     const auto positions = [&](int64_t count, double star) {
-        std::vector<double> p(static_cast<size_t>(count));
-        for (size_t i = 0; i < p.size(); ++i)
-            p[i] = centre + (static_cast<double>(i) - star) * samples;
-        return p;
+        return Positions{centre - star * static_cast<double>(per_pixel_) / n, count, per_pixel_,
+                         oversampling};
     };
     resample(field.value.view(), field.interpolator, positions(out.nx, x), positions(out.ny, y),
              flux / (n * n), out);

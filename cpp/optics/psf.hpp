@@ -36,7 +36,9 @@ class Psf {
     double lit_area() const { return aperture_->area(); } // m^2
     int64_t nodes() const { return field_.nodes; }
     int64_t grid_size() const { return field_.value.nx(); }
-    double grid_step() const { return step_; }             // radians
+    double grid_step() const {
+        return settings_.pixel_scale / static_cast<double>(per_pixel_);
+    }                                                      // radians
     double error_estimate() const { return field_.error; } // numerical, of the peak pixel
     double model_error() const {
         return field_.model_error;
@@ -60,7 +62,7 @@ class Psf {
     std::shared_ptr<const Aperture> aperture_;
     Wavefront wavefront_;
     PsfSettings settings_;
-    double step_;
+    int64_t per_pixel_; // samples of the focal grid in a native pixel
     Field field_;
 };
 

@@ -9,12 +9,17 @@
 
 namespace wfpsf {
 
-// out(i, j) = scale * grid at position (x[i], y[j]), in grid samples. Every position must lie at
+// Equally spaced places in grid samples: start + i numerator / denominator, i = 0..count-1.
+struct Positions {
+    double start;
+    int64_t count, numerator, denominator;
+};
+
+// out(i, j) = scale * grid at the i-th place along x and the j-th along y. Every place must lie at
 // least interpolator.half_width() samples inside the grid.
 template <class T>
 void resample(View<const double> grid, const BandlimitedInterpolator &interpolator,
-              const std::vector<double> &x, const std::vector<double> &y, double scale,
-              View<T> out);
+              const Positions &x, const Positions &y, double scale, View<T> out);
 
 // The grid filtered along both axes by a symmetric filter of 2m + 1 taps; smaller by m on each
 // side.
