@@ -5,10 +5,9 @@
 usage: generate.py [output folder]
 
 The output folder (default: the folder of this script) receives fortran/src/wfpsf_c.f90 and
-julia/src/LibWfpsf.jl. Whatever in a header is not understood is an error.
+julia/src/LibWfpsf.jl. A function, list or enum that is not understood is an error.
 """
 
-import ast
 import re
 import sys
 from pathlib import Path
@@ -16,9 +15,10 @@ from typing import NamedTuple
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
-HEADERS = [ROOT / "capi/include/wfpsf" / name for name in (
-    "version.h.in", "status.h", "options.h", "image.h", "instrument.h", "psf.h", "ipc.h",
-    "moments.h", "size.h")]
+HEADERS = ROOT / "capi/include/wfpsf"
+ORDER = ("version.h.in", "status.h", "options.h", "image.h", "instrument.h", "psf.h", "ipc.h",
+         "moments.h", "size.h")
+WITHOUT_NAMES = {"export.h", "wfpsf.h"}
 WIDTH = 100
 
 
@@ -42,10 +42,6 @@ class Header(NamedTuple):
 
 # ---------------------------------------------------------------------------- reading the headers
 
-def number(text):
-    return int(ast.literal_eval(text.strip("() ")))
-
-
 def list_constants(text):
     """Constants of the X-macro lists: the WFPSF_x_LIST and the ..._ENUM macro that names them."""
     constants = {}
@@ -54,8 +50,10 @@ def list_constants(text):
         macro, _, prefix = enum.groups()
         name = re.search(r"enum \{ (WFPSF_\w+_LIST)\(" + macro + r"\) \};", text).group(1)
         body = re.search(r"#define " + name + r"\(X\)(.*)", text).group(1)
-        for entry in re.finditer(r"\bX\((\w+), (-?\d+),", body):
-            constants[prefix + entry.group(1)] = number(entry.group(2))
+        entries = re.findall(r"\bX\((\w+), (-?\d+),", body)
+        if len(entries) != len(re.findall(r"\bX\(", body)):
+            sys.exit(f"{name}: an entry is no X(NAME, number, ...)")
+        constants |= {prefix + entry: int(value) for entry, value in entries}
     return constants
 
 
@@ -66,12 +64,12 @@ def enum_constants(text):
             continue
         for entry in filter(None, (part.strip() for part in body.split(","))):
             name, value = entry.split("=")
-            constants[name.strip()] = number(value)
+            constants[name.strip()] = int(value)
     return constants
 
 
 def macro_constants(text):
-    return {name: number(value)
+    return {name: int(value)
             for name, value in re.findall(r"^#define (WFPSF_\w+) (-?\d+)$", text, re.MULTILINE)}
 
 
@@ -89,8 +87,7 @@ def arguments(text):
         type_text, name = re.fullmatch(r"\s*(.*?)(\w+)\s*", part, re.DOTALL).groups()
         kind = c_type(type_text)
         # Numbers come as arrays when const, or when their count was given before.
-        is_array = (kind in ("const double*", "const char*", "char*") or kind.endswith("*const*")
-                    or (kind == "double*" and count_given))
+        is_array = kind == "const double*" or (kind == "double*" and count_given)
         result.append(Argument(kind, name, is_array))
         count_given = count_given or name in ("count", "capacity")
     return result
@@ -131,7 +128,6 @@ def read_header(path, numbers):
 FORTRAN_VALUES = {
     "wfpsf_status": "integer(c_int32_t)", "int32_t": "integer(c_int32_t)",
     "int64_t": "integer(c_int64_t)", "double": "real(c_double)"}
-POINTER_RESULTS = ("const char*",)
 # A function has the name that the constant would have.
 FORTRAN_RENAMED = {"WFPSF_ABI_NUMBER": "wfpsf_headers_abi_number"}
 
@@ -187,7 +183,7 @@ def fortran_argument(argument):
 
 
 def fortran_result(kind):
-    return "type(c_ptr)" if kind in POINTER_RESULTS else FORTRAN_VALUES[kind]
+    return "type(c_ptr)" if kind == "const char*" else FORTRAN_VALUES[kind]
 
 
 def fortran_interface(function):
@@ -215,7 +211,7 @@ def fortran(headers):
     check_names(headers)
     lines = """\
 ! SPDX-License-Identifier: GPL-3.0-or-later
-! Made by bindings/generate.py from capi/include/wfpsf/*.h: change those.
+! Made by bindings/generate.py from the headers in capi/include/wfpsf: change those.
 !
 ! The C interface as it stands, described in the C headers. The module wfpsf is the comfortable way.
 
@@ -291,7 +287,7 @@ def julia_function(function):
 def julia(headers):
     lines = """\
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Made by bindings/generate.py from capi/include/wfpsf/*.h: change those.
+# Made by bindings/generate.py from the headers in capi/include/wfpsf: change those.
 
 \"\"\"
 The C interface as it stands: every function and constant, described in the C headers. Positions
@@ -342,7 +338,10 @@ end""".splitlines()
 def main():
     output = Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
     numbers = project_numbers()
-    headers = [read_header(path, numbers) for path in HEADERS]
+    there = {path.name for path in HEADERS.iterdir()} - WITHOUT_NAMES
+    if there != set(ORDER):
+        sys.exit(f"{HEADERS}: headers unknown or missing: {there ^ set(ORDER)}")
+    headers = [read_header(HEADERS / name, numbers) for name in ORDER]
     for path, lines in ((output / "fortran/src/wfpsf_c.f90", fortran(headers)),
                         (output / "julia/src/LibWfpsf.jl", julia(headers))):
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -5,9 +5,8 @@
 set -euo pipefail
 
 packages=(
-    cmake ninja-build gcc g++ gfortran pkg-config binutils
-    libeigen3-dev libgsl-dev libfftw3-dev libcfitsio-dev zlib1g-dev libgd-dev
-    libgtest-dev libbenchmark-dev
+    cmake ninja-build gcc g++ gfortran pkg-config binutils python3
+    libeigen3-dev libfftw3-dev libcfitsio-dev zlib1g-dev libgd-dev libgtest-dev
 )
 case "${1:-}" in
     --lint) packages+=(clang-format clang-tidy) ;;

@@ -8,7 +8,14 @@ set -euo pipefail
 
 say() { printf 'install_julia: %s\n' "$*"; }
 
-if command -v julia > /dev/null; then
+# Julia 1.5 with a libunwind newer than 1.3 crashes where an exception passes through compiled code.
+works() {
+    command -v julia > /dev/null &&
+        julia --startup-file=no -e 'f(n) = n > 0 ? f(n - 1) + 1 : error(); try f(9) catch end' \
+            > /dev/null 2>&1
+}
+
+if works; then
     say "$(julia --version) is here already"
     exit 0
 fi
@@ -23,10 +30,12 @@ install() {
 on_offer() { [ -n "$(apt-cache madison julia 2> /dev/null)" ]; }
 
 "${as_root[@]}" apt-get update -q
-if on_offer; then
+if ! command -v julia > /dev/null && on_offer; then
     install julia
-    julia --version
-    exit 0
+    if works; then
+        julia --version
+        exit 0
+    fi
 fi
 
 release=bullseye
@@ -72,9 +81,22 @@ while read -r uri; do
 done < <(candidates)
 [ -n "$found" ] || { say "$release is on none of the machine's mirrors"; exit 1; }
 
-plan=$(apt-get install -s --no-install-recommends --no-remove julia)
-changed=$(sed -n 's/^Inst \([^ ]*\) \[.*/\1/p' <<< "$plan")
-[ -z "$changed" ] || { say "would replace installed packages: $changed"; exit 1; }
+if ! command -v julia > /dev/null; then
+    plan=$(apt-get install -s --no-install-recommends --no-remove julia)
+    changed=$(sed -n 's/^Inst \([^ ]*\) \[.*/\1/p' <<< "$plan")
+    [ -z "$changed" ] || { say "would replace installed packages: $changed"; exit 1; }
+    install julia
+fi
 
-install julia
+# The libunwind that this Julia was made with goes into Julia's own folder of libraries, which no
+# other program looks into.
+if ! works; then
+    folder=$(mktemp -d)
+    (cd "$folder" && apt-get download -q "libunwind8/$release" && dpkg-deb -x libunwind8_*.deb .)
+    library=$(find "$folder" -name 'libunwind.so.8.*' -type f)
+    own=$(dirname "$(find /usr/lib -path '*/julia/*' -name 'sys.so' | head -n 1)")
+    "${as_root[@]}" cp "$library" "$own/libunwind.so.8"
+    rm -r "$folder"
+fi
+works || { say "julia crashes on an exception"; exit 1; }
 julia --version

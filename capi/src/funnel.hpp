@@ -4,6 +4,7 @@
 
 #include "error/error.hpp"
 
+#include <cmath>
 #include <exception>
 #include <new>
 #include <type_traits>
@@ -36,6 +37,11 @@ template <class Body> wfpsf_status guarded(Body &&body) noexcept {
 inline void require_pointer(const void *pointer, const char *argument) {
     if (!pointer)
         fail(WFPSF_ERROR_NULL, "%s = NULL: must point to something", argument);
+}
+
+inline void require_finite(double value, const char *argument) {
+    if (!std::isfinite(value))
+        fail(WFPSF_ERROR_NOT_FINITE, "%s = %g: must be finite", argument, value);
 }
 
 } // namespace wfpsf

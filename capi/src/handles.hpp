@@ -23,6 +23,7 @@ struct wfpsf_instrument {
 
 struct wfpsf_psf {
     wfpsf::Psf psf;
+    double wavelength_nm, pixel_scale_arcsec; // as given, without a rounding
 };
 
 struct wfpsf_ipc_kernel {

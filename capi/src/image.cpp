@@ -71,11 +71,10 @@ DitherConvention convention_of(int32_t convention) {
          convention);
 }
 
-int64_t dither_count(int64_t n_x, int64_t n_y, const void *images, const void *dx, const void *dy) {
+int64_t dither_count(int64_t n_x, int64_t n_y, const double *dx, const double *dy) {
     if (n_x < 1 || n_y < 1 || n_x > 4096 || n_y > 4096)
         fail(WFPSF_ERROR_RANGE, "(n_x, n_y) = (%lld, %lld): must be 1..4096",
              static_cast<long long>(n_x), static_cast<long long>(n_y));
-    require_pointer(images, "images");
     require_pointer(dx, "dx");
     require_pointer(dy, "dy");
     return n_x * n_y;
@@ -83,15 +82,17 @@ int64_t dither_count(int64_t n_x, int64_t n_y, const void *images, const void *d
 
 // The pixels of a list of images that must all be of one type.
 template <class T, class Handle>
-std::vector<DitheredImage<T>> dithered(Handle *const *images, int64_t count, const double *dx,
-                                       const double *dy) {
+std::vector<DitheredImage<T>> dithered(Handle *const *images, const char *argument, int64_t count,
+                                       const double *dx, const double *dy) {
     std::vector<DitheredImage<T>> list;
     for (int64_t k = 0; k < count; ++k) {
-        require_pointer(images[k], "an image");
+        if (!images[k])
+            fail(WFPSF_ERROR_NULL, "%s[%lld] = NULL: must point to an image", argument,
+                 static_cast<long long>(k));
         auto pixels = images[k]->image.pixels();
         const auto *view = std::get_if<View<T>>(&pixels);
         if (!view)
-            fail(WFPSF_ERROR_TYPE, "images[%lld]: must have the pixel type of the fine image",
+            fail(WFPSF_ERROR_TYPE, "%s[%lld]: must have the pixel type of the fine image", argument,
                  static_cast<long long>(k));
         list.push_back({*view, dx[k], dy[k]});
     }
@@ -220,13 +221,14 @@ wfpsf_status wfpsf_image_interleave(int64_t n_x, int64_t n_y, const wfpsf_image 
                                     const double *dx, const double *dy, int32_t convention,
                                     wfpsf_image *out) {
     return guarded([&] {
-        const int64_t count = dither_count(n_x, n_y, images, dx, dy);
+        const int64_t count = dither_count(n_x, n_y, dx, dy);
+        require_pointer(images, "images");
         require_pointer(out, "out");
         const DitherConvention rule = convention_of(convention);
         std::visit(
             [&](auto fine) {
                 using Pixel = std::remove_reference_t<decltype(*fine.data)>;
-                const auto list = dithered<const Pixel>(images, count, dx, dy);
+                const auto list = dithered<const Pixel>(images, "images", count, dx, dy);
                 interleave(list, n_x, n_y, rule, InterleavedFlux::sum, fine);
             },
             out->image.pixels());
@@ -242,7 +244,8 @@ wfpsf_status wfpsf_image_deinterleave(const wfpsf_image *image, int64_t n_x, int
                                       wfpsf_image *const *out) {
     return guarded([&] {
         require_pointer(image, "image");
-        const int64_t count = dither_count(n_x, n_y, out, dx, dy);
+        const int64_t count = dither_count(n_x, n_y, dx, dy);
+        require_pointer(out, "out");
         const DitherConvention rule = convention_of(convention);
         const Image &fine = image->image;
         if (n_x == n_y && fine.oversampling() % n_x != 0)
@@ -251,7 +254,7 @@ wfpsf_status wfpsf_image_deinterleave(const wfpsf_image *image, int64_t n_x, int
         std::visit(
             [&](auto pixels) {
                 using Pixel = std::remove_const_t<std::remove_reference_t<decltype(*pixels.data)>>;
-                const auto list = dithered<Pixel>(out, count, dx, dy);
+                const auto list = dithered<Pixel>(out, "out", count, dx, dy);
                 deinterleave(pixels, n_x, n_y, rule, InterleavedFlux::sum, list);
             },
             fine.pixels());

@@ -64,17 +64,19 @@ wfpsf_status wfpsf_moments_measure(const wfpsf_image *image, const wfpsf_options
                 return adaptive_moments(pixels, guess(image->image, options), adaptive);
             },
             image->image.pixels());
+        constexpr double nan = std::numeric_limits<double>::quiet_NaN();
         auto result = std::make_unique<wfpsf_moments>();
         result->status = m.status;
         add_ellipse(*result, m.weight.x, m.weight.y, m.weight.Mxx, m.weight.Mxy, m.weight.Myy);
-        result->properties.insert(result->properties.end(),
-                                  {{WFPSF_MOMENTS_FLUX, m.flux},
-                                   {WFPSF_MOMENTS_RHO4, m.rho4},
-                                   {WFPSF_MOMENTS_PASSES, m.passes},
-                                   {WFPSF_MOMENTS_ERROR_ESTIMATE, m.error_estimate},
-                                   {WFPSF_MOMENTS_RESIDUAL, m.gradient},
-                                   {WFPSF_MOMENTS_CURVATURE, m.curvature},
-                                   {WFPSF_MOMENTS_EDGE_FRACTION, m.edge_fraction}});
+        result->properties.insert(
+            result->properties.end(),
+            {{WFPSF_MOMENTS_FLUX, m.flux},
+             {WFPSF_MOMENTS_RHO4, m.rho4},
+             {WFPSF_MOMENTS_PASSES, m.passes},
+             {WFPSF_MOMENTS_ERROR_ESTIMATE, m.status < 0 ? nan : m.error_estimate},
+             {WFPSF_MOMENTS_RESIDUAL, m.gradient},
+             {WFPSF_MOMENTS_CURVATURE, m.curvature},
+             {WFPSF_MOMENTS_EDGE_FRACTION, m.edge_fraction}});
         *out = result.release();
         return m.status == WFPSF_OK ? m.status : record_error(m.status, m.line.c_str());
     });
@@ -86,6 +88,8 @@ wfpsf_status wfpsf_moments_measure_unweighted(const wfpsf_image *image, double x
         require_pointer(out, "out");
         *out = nullptr;
         require_pointer(image, "image");
+        if (image->image.nx() == 0 || image->image.ny() == 0)
+            fail(WFPSF_ERROR_MOMENTS_NO_PIXELS, "image: is empty");
         const bool about_centroid = std::isnan(x) && std::isnan(y);
         if (!about_centroid && !(std::isfinite(x) && std::isfinite(y)))
             fail(WFPSF_ERROR_NOT_FINITE, "(x, y) = (%g, %g): must be finite, or both NaN", x, y);

@@ -34,6 +34,7 @@ template <class MakeAperture>
 wfpsf_status create(const wfpsf_instrument *handle, int32_t sca, double wavelength_nm,
                     const wfpsf_options *options, wfpsf_psf **out, MakeAperture make) {
     const Instrument &instrument = handle->instrument;
+    require_finite(wavelength_nm, "wavelength_nm");
     if (!(wavelength_nm >= 100 && wavelength_nm <= 1e5))
         fail(WFPSF_ERROR_RANGE, "wavelength_nm = %g: must be 100..100000", wavelength_nm);
     const Wavefront wavefront = make_wavefront(instrument, sca, wavelength_nm, options);
@@ -41,7 +42,8 @@ wfpsf_status create(const wfpsf_instrument *handle, int32_t sca, double waveleng
                                .pixel_scale = instrument.pixel_scale_arcsec() * arcsec,
                                .eps = option(options, WFPSF_OPTION_EPS),
                                .radius = option(options, WFPSF_OPTION_PSF_RADIUS)};
-    *out = new wfpsf_psf{Psf(make(instrument), wavefront, settings)};
+    *out = new wfpsf_psf{Psf(make(instrument), wavefront, settings), wavelength_nm,
+                         instrument.pixel_scale_arcsec()};
     const double estimate = (*out)->psf.error_estimate();
     if (estimate <= settings.eps)
         return WFPSF_OK;
@@ -74,11 +76,15 @@ wfpsf_status wfpsf_psf_create_from_mask(const wfpsf_instrument *instrument, cons
         *out = nullptr;
         require_pointer(instrument, "instrument");
         require_pointer(mask, "mask");
+        require_finite(mask_scale_m, "mask_scale_m");
         if (!(mask_scale_m > 0 && mask_scale_m <= 1))
             fail(WFPSF_ERROR_RANGE, "mask_scale_m = %g: must be above 0, up to 1", mask_scale_m);
-        for (const auto &[name, value] : {std::pair("axis_x", axis_x), std::pair("axis_y", axis_y)})
+        for (const auto &[name, value] :
+             {std::pair("axis_x", axis_x), std::pair("axis_y", axis_y)}) {
+            require_finite(value, name);
             if (!(std::abs(value) <= 1e6))
                 fail(WFPSF_ERROR_RANGE, "%s = %g: must be -1e6..1e6", name, value);
+        }
         return create(instrument, sca, wavelength_nm, options, out, [&](const Instrument &) {
             return std::visit(
                 [&](auto pixels) {
@@ -102,14 +108,13 @@ wfpsf_status wfpsf_psf_draw(const wfpsf_psf *psf, double x, double y, double flu
     return guarded([&] {
         require_pointer(psf, "psf");
         require_pointer(image, "image");
-        for (const auto &[name, value] :
-             {std::pair("x", x), std::pair("y", y), std::pair("flux", flux)})
-            if (!std::isfinite(value))
-                fail(WFPSF_ERROR_NOT_FINITE, "%s = %g: must be finite", name, value);
+        require_finite(x, "x");
+        require_finite(y, "y");
+        require_finite(flux, "flux");
         std::visit(
             [&](auto pixels) { psf->psf.draw(x, y, flux, image->image.oversampling(), pixels); },
             image->image.pixels());
-        image->image.set_pixel_scale_arcsec(psf->psf.settings().pixel_scale / arcsec);
+        image->image.set_pixel_scale_arcsec(psf->pixel_scale_arcsec);
         image->image.set_applied(0);
         image->image.record_applied(Effect::pixel_response);
     });
@@ -122,10 +127,10 @@ wfpsf_status wfpsf_psf_get(const wfpsf_psf *psf, int32_t key, double *value) {
         const Psf &p = psf->psf;
         switch (key) {
         case WFPSF_PSF_WAVELENGTH_NM:
-            *value = p.settings().wavelength * 1e9;
+            *value = psf->wavelength_nm;
             return;
         case WFPSF_PSF_PIXEL_SCALE_ARCSEC:
-            *value = p.settings().pixel_scale / arcsec;
+            *value = psf->pixel_scale_arcsec;
             return;
         case WFPSF_PSF_ERROR_ESTIMATE:
             *value = p.error_estimate();

@@ -13,11 +13,6 @@ using namespace wfpsf;
 
 namespace {
 
-void require_finite(double value, const char *argument) {
-    if (!std::isfinite(value))
-        fail(WFPSF_ERROR_NOT_FINITE, "%s = %g: must be finite", argument, value);
-}
-
 template <class T> double total_flux(View<const T> pixels, const wfpsf_options *options) {
     const double stated = option(options, WFPSF_OPTION_SIZE_TOTAL_FLUX);
     const double total = std::isnan(stated) ? unweighted_moments(pixels).flux : stated;
@@ -62,6 +57,7 @@ wfpsf_status wfpsf_size_ee_radius(const wfpsf_image *image, double x, double y, 
         require_pointer(radius, "radius");
         require_finite(x, "x");
         require_finite(y, "y");
+        require_finite(fraction, "fraction");
         if (!(fraction > 0 && fraction < 1))
             fail(WFPSF_ERROR_RANGE, "fraction = %g: must lie between 0 and 1", fraction);
         if (method < WFPSF_SIZE_BANDLIMITED || method > WFPSF_SIZE_PIXEL_INTERPOLATED)

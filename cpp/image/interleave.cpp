@@ -3,7 +3,9 @@
 
 #include "image/overlap.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <utility>
 #include <vector>
@@ -51,6 +53,54 @@ template <class T> void require_size(size_t image, View<T> pixels, int64_t nx, i
              static_cast<Int>(ny));
 }
 
+// Which phases are taken, and by which image.
+class PhaseTable {
+  public:
+    PhaseTable(int64_t n, int64_t m, DitherConvention convention)
+        : n_(n), m_(m), convention_(convention) {}
+
+    // The phase of an image, which no other may have.
+    template <class T> std::pair<int64_t, int64_t> take(size_t k, const DitheredImage<T> &image) {
+        const std::pair phase(phase_of(image.dx, n_, convention_, k, "dx"),
+                              phase_of(image.dy, m_, convention_, k, "dy"));
+        const auto [same, is_new] = images_.insert({phase, k});
+        if (!is_new)
+            fail(WFPSF_ERROR_ARGUMENT, "images %zu and %zu have the same phase, (%lld, %lld)",
+                 same->second, k, static_cast<Int>(phase.first), static_cast<Int>(phase.second));
+        return phase;
+    }
+
+  private:
+    int64_t n_, m_;
+    DitherConvention convention_;
+    std::map<std::pair<int64_t, int64_t>, size_t> images_;
+};
+
+// Images that are written to must not share memory with each other: sorted by their first byte,
+// each is held against those that begin before it ends.
+template <class T> void require_apart(std::span<const DitheredImage<T>> images) {
+    struct Extent {
+        const T *first, *last;
+        size_t image;
+    };
+    std::vector<Extent> extents;
+    for (size_t k = 0; k < images.size(); ++k) {
+        const View<T> v = images[k].pixels;
+        if (v.empty())
+            continue;
+        const auto [x_low, x_high] = std::minmax<int64_t>(0, (v.nx - 1) * v.stride_x);
+        const auto [y_low, y_high] = std::minmax<int64_t>(0, (v.ny - 1) * v.stride_y);
+        extents.push_back({v.data + x_low + y_low, v.data + x_high + y_high, k});
+    }
+    std::sort(extents.begin(), extents.end(),
+              [](const Extent &a, const Extent &b) { return std::less<>()(a.first, b.first); });
+    for (size_t i = 0; i < extents.size(); ++i)
+        for (size_t j = i + 1; j < extents.size() && extents[j].first <= extents[i].last; ++j)
+            if (shares_memory(images[extents[i].image].pixels, images[extents[j].image].pixels))
+                fail(WFPSF_ERROR_OVERLAP, "images %zu and %zu share memory", extents[i].image,
+                     extents[j].image);
+}
+
 template <class A, class B> void require_apart(size_t image, View<A> pixels, View<B> interleaved) {
     if (shares_memory(pixels, interleaved))
         fail(WFPSF_ERROR_OVERLAP, "image %zu shares memory with the interleaved image", image);
@@ -71,18 +121,13 @@ void interleave_any(std::span<const DitheredImage<const T>> images, int64_t n, i
              static_cast<Int>(out.nx), static_cast<Int>(out.ny), static_cast<Int>(n),
              static_cast<Int>(m), static_cast<Int>(nx), static_cast<Int>(ny));
 
-    std::map<std::pair<int64_t, int64_t>, size_t> image_of_phase;
+    PhaseTable taken(n, m, convention);
     std::vector<View<T>> phases;
     for (size_t k = 0; k < images.size(); ++k) {
         const DitheredImage<const T> &image = images[k];
         require_size(k, image.pixels, nx, ny);
         require_apart(k, image.pixels, out);
-        const int64_t i = phase_of(image.dx, n, convention, k, "dx");
-        const int64_t j = phase_of(image.dy, m, convention, k, "dy");
-        const auto [same, is_new] = image_of_phase.insert({{i, j}, k});
-        if (!is_new)
-            fail(WFPSF_ERROR_ARGUMENT, "images %zu and %zu have the same phase, (%lld, %lld)",
-                 same->second, k, static_cast<Int>(i), static_cast<Int>(j));
+        const auto [i, j] = taken.take(k, image);
         phases.push_back(phase_view(out, n, m, i, j));
     }
 
@@ -99,15 +144,16 @@ void deinterleave_any(View<const T> interleaved, int64_t n, int64_t m, DitherCon
     require_arguments(n, m, convention, flux);
     const double factor =
         flux == InterleavedFlux::mean ? static_cast<double>(n) * static_cast<double>(m) : 1.0;
+    PhaseTable taken(n, m, convention);
     std::vector<View<const T>> phases;
     for (size_t k = 0; k < images.size(); ++k) {
         const DitheredImage<T> &image = images[k];
-        const int64_t i = phase_of(image.dx, n, convention, k, "dx");
-        const int64_t j = phase_of(image.dy, m, convention, k, "dy");
+        const auto [i, j] = taken.take(k, image);
         phases.push_back(phase_view(interleaved, n, m, i, j));
         require_size(k, image.pixels, phases[k].nx, phases[k].ny);
         require_apart(k, image.pixels, interleaved);
     }
+    require_apart(images);
     for (size_t k = 0; k < images.size(); ++k)
         for (int64_t y = 0; y < phases[k].ny; ++y)
             for (int64_t x = 0; x < phases[k].nx; ++x)

@@ -56,7 +56,8 @@ void interleave(std::span<const DitheredImage<const float>> images, int64_t n, i
 void interleave(std::span<const DitheredImage<const double>> images, int64_t n, int64_t m,
                 DitherConvention convention, InterleavedFlux flux, View<double> out);
 
-// The inverse: copies out the images of the given offsets, as many as are wanted.
+// The inverse: copies out the images of the given offsets, as many as are wanted. They must not
+// share memory with each other.
 void deinterleave(View<const float> interleaved, int64_t n, int64_t m, DitherConvention convention,
                   InterleavedFlux flux, std::span<const DitheredImage<float>> images);
 void deinterleave(View<const double> interleaved, int64_t n, int64_t m, DitherConvention convention,

@@ -88,6 +88,19 @@ double edge_fraction(const Gaussian &g, int64_t nx, int64_t ny) {
     return 1 - inside / std::sqrt(2 * std::numbers::pi);
 }
 
+// Why no start was found: pixels that are not numbers, or no light.
+template <class T> void report_no_start(View<const T> image, AdaptiveMoments &result) {
+    for (int64_t y = 0; y < image.ny; ++y)
+        for (int64_t x = 0; x < image.nx; ++x)
+            if (!std::isfinite(image(x, y))) {
+                report(result, WFPSF_ERROR_NOT_FINITE, "pixel (%lld, %lld) = %g: must be finite",
+                       static_cast<long long>(x), static_cast<long long>(y),
+                       static_cast<double>(image(x, y)));
+                return;
+            }
+    report(result, WFPSF_ERROR_MOMENTS_FLUX, "no weight finds positive flux in the image");
+}
+
 template <class T> class Iteration {
   public:
     Iteration(View<const T> image, const AdaptiveOptions &options, AdaptiveMoments &result)
@@ -370,7 +383,7 @@ AdaptiveMoments adaptive_moments(View<const T> image, const std::optional<Gaussi
         if (start)
             Iteration<T>(image, options, result).run(widened(*start));
         else
-            report(result, WFPSF_ERROR_MOMENTS_FLUX, "no weight finds positive flux in the image");
+            report_no_start(image, result);
         if (guess && result.status == WFPSF_OK)
             report(result, WFPSF_WARNING_RESTARTED,
                    "no solution from the guess at (%.6g, %.6g); found one at (%.6g, %.6g)",

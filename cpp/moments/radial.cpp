@@ -92,6 +92,8 @@ template <class T> double full_width_half_maximum(View<const T> image, double x,
     double largest = 0;
     for (const RadialPixel &pixel : pixels)
         largest = std::max(largest, pixel.value);
+    if (!(largest > 0))
+        fail(WFPSF_ERROR_MOMENTS_FLUX, "largest pixel = %g: must be positive", largest);
     const double half = largest / 2;
     const auto below = std::find_if(pixels.begin(), pixels.end(),
                                     [&](const RadialPixel &p) { return p.value < half; });

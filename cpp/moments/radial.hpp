@@ -26,8 +26,8 @@ double half_light_radius(View<const T> image, double x, double y, double fractio
 // Meant for a centre on the peak.
 template <class T> double full_width_half_maximum(View<const T> image, double x, double y);
 
-// All throw Error: SIZE_NOT_REACHED if the image has no such radius, NOT_FINITE on a pixel that is
-// not finite, RANGE on a fraction outside (0, 1] or a total that is not positive. Pixels at equal
-// distance are taken row by row.
+// All throw Error: SIZE_NOT_REACHED if the image has no such radius, MOMENTS_FLUX if no pixel is
+// positive where a maximum is needed, NOT_FINITE on a pixel that is not finite, RANGE on a fraction
+// outside (0, 1] or a total that is not positive. Pixels at equal distance are taken row by row.
 
 } // namespace wfpsf

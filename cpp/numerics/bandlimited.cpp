@@ -49,8 +49,9 @@ int64_t BandlimitedInterpolator::weights(double x, double *w) const {
         w[half_width_ - 1] = 1;
         return first;
     }
-    // sin(pi (offset - j)) differs from tap to tap by its sign alone.
-    double numerator = std::sin(pi * offset) / pi;
+    // sin(pi (offset - j)) differs from tap to tap by its sign alone. It must not cancel close to
+    // the next sample, where it is divided by as small a distance.
+    double numerator = std::sin(pi * std::min(offset, 1 - offset)) / pi;
     if (half_width_ % 2 == 0)
         numerator = -numerator;
     for (int k = 0; k < taps(); ++k) {

@@ -49,6 +49,9 @@ class MaskAperture final : public Aperture {
         for (int64_t y = 0; y < mask.ny; ++y)
             for (int64_t x = 0; x < mask.nx; ++x) {
                 const double lit = mask(x, y);
+                if (!std::isfinite(lit))
+                    fail(WFPSF_ERROR_NOT_FINITE, "mask pixel (%lld, %lld) = %g: must be finite",
+                         static_cast<long long>(x), static_cast<long long>(y), lit);
                 if (!(lit >= 0 && lit <= 1))
                     fail(WFPSF_ERROR_RANGE,
                          "mask pixel (%lld, %lld) = %g: a transmission must be 0..1",

@@ -28,6 +28,9 @@
 enum { SCA = 7, NATIVE_SIDE = 16, OVERSAMPLING = 32, SIDE = NATIVE_SIDE * OVERSAMPLING };
 static const double centre = (SIDE - 1) / 2.0;
 
+/* The field whose light counts as all of it for EE50, as in the paper: 32 x 32 native pixels. */
+enum { FIELD_SIDE = 32, FIELD_SAMPLING = 4, FIELD = FIELD_SIDE * FIELD_SAMPLING };
+
 enum quantity { SIGMA, E1, E2, E, EE50_CENTROID, EE50_AXIS, QUANTITIES };
 static const struct {
     const char *in_csv, *in_table, *unit;
@@ -107,6 +110,19 @@ static double effective_wavelength_nm(const wfpsf_instrument *instrument, const 
     return nm;
 }
 
+/* The light of a star of unit flux that falls on the field around it. */
+static double field_flux(const wfpsf_psf *psf) {
+    static double pixels[FIELD * FIELD];
+    wfpsf_image *field;
+    check(wfpsf_image_wrap(WFPSF_FLOAT64, pixels, FIELD, FIELD, 1, FIELD, FIELD_SAMPLING, &field));
+    check(wfpsf_psf_draw(psf, (FIELD - 1) / 2.0, (FIELD - 1) / 2.0, 1, field));
+    wfpsf_image_destroy(field);
+    double sum = 0;
+    for (int i = 0; i < FIELD * FIELD; ++i)
+        sum += pixels[i];
+    return sum;
+}
+
 static void measure_ee50(const wfpsf_image *image, double x, double y, const wfpsf_options *options,
                          double mas_per_sample, double psf_error, double *value, double *error) {
     double radius, radius_error;
@@ -173,6 +189,8 @@ static struct table_row make_row(const wfpsf_instrument *instrument, int band, i
     row.grid = psf_property(psf, WFPSF_PSF_GRID_SIZE);
     row.error = psf_property(psf, WFPSF_PSF_ERROR_ESTIMATE);
     row.model_error = psf_property(psf, WFPSF_PSF_MODEL_ERROR);
+
+    check(wfpsf_options_set_real(options, WFPSF_OPTION_SIZE_TOTAL_FLUX, field_flux(psf)));
 
     wfpsf_image *optics, *with_ipc;
     check(wfpsf_image_create(WFPSF_FLOAT64, SIDE, SIDE, OVERSAMPLING, &optics));
@@ -331,11 +349,10 @@ int main(int argc, char **argv) {
     check(wfpsf_instrument_create("wfirst-afta-c5", &instrument));
     check(wfpsf_options_create(&options));
     check(wfpsf_options_set_real(options, WFPSF_OPTION_EPS, 1e-7));
-    check(wfpsf_options_set_real(options, WFPSF_OPTION_PSF_RADIUS, NATIVE_SIDE / 2));
+    check(wfpsf_options_set_real(options, WFPSF_OPTION_PSF_RADIUS, FIELD_SIDE / 2));
     check(wfpsf_options_set_real(options, WFPSF_OPTION_MOMENTS_TOLERANCE, 1e-10));
     check(wfpsf_options_set_real(options, WFPSF_OPTION_MOMENTS_GUESS_X, centre));
     check(wfpsf_options_set_real(options, WFPSF_OPTION_MOMENTS_GUESS_Y, centre));
-    check(wfpsf_options_set_real(options, WFPSF_OPTION_SIZE_TOTAL_FLUX, 1));
     check(wfpsf_options_set_integer(options, WFPSF_OPTION_FITS_OVERWRITE, 1));
 
     struct table_row rows[2 * TABLE_BANDS];
@@ -347,9 +364,9 @@ int main(int argc, char **argv) {
     }
     printf(
         "Differences and changes: per cent of the paper's figure, or of the one without IPC;\n"
-        "absolute for ellipticities. EE50: half of all the star's light; half of the light in\n"
-        "32 x 32 native pixels gives the paper's radii within 0.25 %%. Errors are numerical, for\n"
-        "a PSF in units of its peak; the pupil model's error is apart from them.\n");
+        "absolute for ellipticities. EE50: half of the star's light on 32 x 32 native pixels.\n"
+        "Errors are numerical, for a PSF in units of its peak; the pupil model's error is apart\n"
+        "from them.\n");
     write_csv(folder, rows, count);
     draw_figure(folder, instrument, options);
 

@@ -81,7 +81,7 @@ static void test_float_and_flipped(void) {
     CHECK_OK(wfpsf_image_shape(read, &type, NULL, NULL));
     CHECK(type == WFPSF_FLOAT32);
     CHECK_OK(wfpsf_image_copy(read, to));
-    CHECK(memcmp(back, data, sizeof data) == 0);
+    CHECK(are_equal(back, data, 6));
     wfpsf_image_destroy(read);
     wfpsf_image_destroy(image);
 

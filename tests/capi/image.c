@@ -83,7 +83,7 @@ static void test_wrap(void) {
     /* 4 x 3 pixels: as they lie, transposed, and from the other corner */
     wfpsf_image *plain = wrap(data, 4, 3), *to = wrap(copy, 4, 3);
     CHECK_OK(wfpsf_image_copy(plain, to));
-    CHECK(memcmp(copy, data, sizeof data) == 0);
+    CHECK(are_equal(copy, data, 12));
     wfpsf_image_destroy(plain);
     plain = wrap_flipped(data, 4, 3);
     CHECK_OK(wfpsf_image_copy(plain, to));

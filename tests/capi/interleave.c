@@ -101,16 +101,16 @@ static void test_bad_offsets(void) {
     check_both_refused(WFPSF_ERROR_ARGUMENT, "convention = 0", &d, 0);
     check_both_refused(WFPSF_ERROR_ARGUMENT, "convention = 3", &d, 3);
     d.dx[4] = 0.4;
-    check_both_refused(WFPSF_ERROR_ARGUMENT, "dx = 0.4", &d, WFPSF_DITHER_DETECTOR);
+    check_both_refused(WFPSF_ERROR_RANGE, "dx = 0.4", &d, WFPSF_DITHER_DETECTOR);
     d.dx[4] = 1;
-    check_both_refused(WFPSF_ERROR_ARGUMENT, "dx = 1", &d, WFPSF_DITHER_DETECTOR);
+    check_both_refused(WFPSF_ERROR_RANGE, "dx = 1", &d, WFPSF_DITHER_DETECTOR);
     d.dx[4] = -1.0 / 3;
-    check_both_refused(WFPSF_ERROR_ARGUMENT, "dx = -0.333", &d, WFPSF_DITHER_DETECTOR);
+    check_both_refused(WFPSF_ERROR_RANGE, "dx = -0.333", &d, WFPSF_DITHER_DETECTOR);
     d.dx[4] = NAN;
-    check_both_refused(WFPSF_ERROR_ARGUMENT, "dx = nan", &d, WFPSF_DITHER_DETECTOR);
+    check_both_refused(WFPSF_ERROR_NOT_FINITE, "dx = nan", &d, WFPSF_DITHER_DETECTOR);
     d.dx[4] = 1.0 / 3;
     d.dy[4] = HUGE_VAL;
-    check_both_refused(WFPSF_ERROR_ARGUMENT, "dy = inf", &d, WFPSF_DITHER_DETECTOR);
+    check_both_refused(WFPSF_ERROR_NOT_FINITE, "dy = inf", &d, WFPSF_DITHER_DETECTOR);
     d.dy[4] = 0; /* that of image 1 */
     check_both_refused(WFPSF_ERROR_ARGUMENT, "images 1 and 4", &d, WFPSF_DITHER_DETECTOR);
     destroy(&d);
@@ -176,14 +176,13 @@ static void test_bad_counts_and_null(void) {
     const wfpsf_image *const *in = (const wfpsf_image *const *)d.coarse;
     const int64_t bad[][2] = {{0, 2}, {-1, 2}, {3, 0}, {3, INT64_MIN}, {INT64_MAX, INT64_MAX}};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
+        const int64_t n = bad[i][0], m = bad[i][1];
         char culprit[64];
-        snprintf(culprit, sizeof culprit, "(%lld, %lld)", (long long)bad[i][0],
-                 (long long)bad[i][1]);
-        CHECK_FAILS(WFPSF_ERROR_ARGUMENT, culprit,
-                    wfpsf_image_interleave(bad[i][0], bad[i][1], in, d.dx, d.dy, by, d.fine));
-        CHECK_FAILS(
-            WFPSF_ERROR_ARGUMENT, culprit,
-            wfpsf_image_deinterleave(d.fine, bad[i][0], bad[i][1], d.dx, d.dy, by, d.coarse));
+        snprintf(culprit, sizeof culprit, "(%lld, %lld)", (long long)n, (long long)m);
+        CHECK_FAILS(WFPSF_ERROR_RANGE, culprit,
+                    wfpsf_image_interleave(n, m, in, d.dx, d.dy, by, d.fine));
+        CHECK_FAILS(WFPSF_ERROR_RANGE, culprit,
+                    wfpsf_image_deinterleave(d.fine, n, m, d.dx, d.dy, by, d.coarse));
     }
     CHECK_FAILS(WFPSF_ERROR_NULL, "images",
                 wfpsf_image_interleave(n_x, n_y, NULL, d.dx, d.dy, by, d.fine));

@@ -52,7 +52,7 @@ static void test_taps(void) {
     wfpsf_ipc_kernel *kernel = table(5, 3, asymmetric), *flipped = NULL, *other = NULL;
     int64_t nx = 0, ny = 0;
     CHECK_OK(wfpsf_ipc_kernel_taps(kernel, 15, taps, &nx, &ny));
-    CHECK(nx == 5 && ny == 3 && memcmp(taps, asymmetric, sizeof taps) == 0);
+    CHECK(nx == 5 && ny == 3 && are_equal(taps, asymmetric, 15));
     CHECK_OK(wfpsf_ipc_kernel_create_flipped(kernel, &flipped));
     CHECK_OK(wfpsf_ipc_kernel_taps(flipped, 20, taps, NULL, NULL));
     for (int i = 0; i < 15; ++i)
@@ -349,8 +349,7 @@ static void test_apply_refuses(void) {
     /* an empty image stays empty */
     wfpsf_image *none = wrap(NULL, 0, 0), *nothing = wrap(NULL, 0, 0);
     for (int edge = WFPSF_EDGE_ZERO; edge <= WFPSF_EDGE_VALID; ++edge)
-        CHECK_STATUS(edge == WFPSF_EDGE_VALID ? WFPSF_ERROR_SIZE : WFPSF_OK,
-                     wfpsf_ipc_apply(kernel, none, edge, NULL, nothing));
+        CHECK_OK(wfpsf_ipc_apply(kernel, none, edge, NULL, nothing));
 
     wfpsf_image *const all[] = {from, to, larger, floats, shifted, upper, none, nothing};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i)

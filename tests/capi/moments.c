@@ -64,7 +64,9 @@ static void test_gaussians(void) {
     wfpsf_moments_destroy(m);
 
     /* every tolerance that the option allows can be asked for */
-    static const double tolerances[] = {1e-13, 1e-12, 1e-5, 1e-2};
+    double tolerances[] = {0, 1e-11, 1e-5, 0};
+    CHECK_OK(wfpsf_option_describe(WFPSF_OPTION_MOMENTS_TOLERANCE, NULL, NULL, NULL, NULL,
+                                   &tolerances[0], &tolerances[3]));
     CHECK_OK(wfpsf_options_reset(options, WFPSF_OPTION_MOMENTS_MAX_PASSES));
     for (size_t i = 0; i < sizeof tolerances / sizeof tolerances[0]; ++i) {
         CHECK_OK(wfpsf_options_set_real(options, WFPSF_OPTION_MOMENTS_TOLERANCE, tolerances[i]));
@@ -112,22 +114,21 @@ static void check_failure(wfpsf_status status, const wfpsf_image *image) {
     CHECK_STATUS(status, wfpsf_moments_measure(image, NULL, &m));
     char line[1024];
     wfpsf_last_error(line, sizeof line);
-    CHECK(strchr(line, '=') != NULL && strstr(line, "-12345") == NULL);
+    CHECK(strlen(line) > 20 && strstr(line, "-12345") == NULL && !strchr(line, '\n'));
     CHECK(m != NULL && wfpsf_moments_status(m) == status);
     wfpsf_moments_destroy(m);
 }
 
 static void check_unweighted_failure(wfpsf_status status, const wfpsf_image *image) {
-    wfpsf_moments *m = NULL;
+    wfpsf_moments *m = STALE(wfpsf_moments);
     CHECK_STATUS(status, wfpsf_moments_measure_unweighted(image, NAN, NAN, &m));
-    CHECK(m != NULL && wfpsf_moments_status(m) == status);
-    wfpsf_moments_destroy(m);
+    CHECK(m == NULL);
 }
 
 static void test_failures(void) {
     double data[25 * 25];
     wfpsf_image *image = wrap(data, 25, 25), *none = wrap(NULL, 0, 0), *one = wrap(data, 1, 1),
-                *row = wrap(data, 25, 1), *column = wrap(data, 1, 25);
+                *row = wrap(data, 25, 1), *column = wrap(data, 1, 25), *frame = wrap(data, 9, 9);
     check_failure(WFPSF_ERROR_MOMENTS_NO_PIXELS, none);
     check_unweighted_failure(WFPSF_ERROR_MOMENTS_NO_PIXELS, none);
 
@@ -136,8 +137,9 @@ static void test_failures(void) {
     check_unweighted_failure(WFPSF_ERROR_MOMENTS_FLUX, image);
     fill(data, 25 * 25, -1);
     check_failure(WFPSF_ERROR_MOMENTS_FLUX, image);
-    fill(data, 25 * 25, 1);
-    check_failure(WFPSF_ERROR_MOMENTS_FILLS_IMAGE, image);
+    for (int i = 0; i < 81; ++i) /* light at the border alone */
+        data[i] = i % 9 == 0 || i % 9 == 8 || i / 9 == 0 || i / 9 == 8;
+    check_failure(WFPSF_ERROR_MOMENTS_FILLS_IMAGE, frame);
     fill_gaussian(data, 25, 25, 12, 12, 0.09, 0, 0.09);
     check_failure(WFPSF_ERROR_MOMENTS_UNRESOLVED, image);
     fill_gaussian(data, 25, 25, 12, 12, 9, 0, 9);
@@ -157,7 +159,7 @@ static void test_failures(void) {
         CHECK(m != NULL && wfpsf_moments_status(m) < 0);
         wfpsf_moments_destroy(m);
     }
-    wfpsf_image *const all[] = {image, none, one, row, column};
+    wfpsf_image *const all[] = {image, none, one, row, column, frame};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i)
         wfpsf_image_destroy(all[i]);
 }

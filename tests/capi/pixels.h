@@ -43,6 +43,13 @@ static inline int all_are(const double *data, int64_t count, double value) {
     return 1;
 }
 
+static inline int are_equal(const double *a, const double *b, int64_t count) {
+    for (int64_t i = 0; i < count; ++i)
+        if (a[i] != b[i])
+            return 0;
+    return 1;
+}
+
 /* A Gaussian of peak 1, sampled at the pixel centres. */
 static inline void fill_gaussian(double *data, int64_t nx, int64_t ny, double x0, double y0,
                                  double Mxx, double Mxy, double Myy) {

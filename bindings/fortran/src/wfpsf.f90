@@ -305,12 +305,13 @@ module wfpsf
         end subroutine image_create
 
         ! The image stands on the array, without a copy: what is drawn appears there. The array is a
-        ! target or pointer, a section with any strides if you like (no vector subscripts), and it
-        ! outlives the image and keeps its place: destroy or wrap again before it is deallocated,
-        ! reallocated, or goes out of scope.
+        ! pointer or has the target attribute; it may be a section with any strides. (A component
+        ! of an array of a derived type: point to it and give the pointer; gfortran 12 mistakes the
+        ! address if given the component itself.) The array must outlive the image and keep its
+        ! place: destroy or wrap again before it is deallocated, reallocated, or leaves its scope.
         module subroutine image_wrap_real32(self, array, oversampling, stat, errmsg)
             class(wfpsf_image), intent(inout) :: self
-            real(real32), intent(inout), target :: array(:, :)
+            real(real32), pointer, intent(in) :: array(:, :)
             integer, intent(in) :: oversampling
             integer, intent(out), optional :: stat
             character(len=*), intent(inout), optional :: errmsg
@@ -318,7 +319,7 @@ module wfpsf
 
         module subroutine image_wrap_real64(self, array, oversampling, stat, errmsg)
             class(wfpsf_image), intent(inout) :: self
-            real(real64), intent(inout), target :: array(:, :)
+            real(real64), pointer, intent(in) :: array(:, :)
             integer, intent(in) :: oversampling
             integer, intent(out), optional :: stat
             character(len=*), intent(inout), optional :: errmsg

@@ -1,5 +1,5 @@
 ! SPDX-License-Identifier: GPL-3.0-or-later
-! Made by bindings/generate.py from capi/include/wfpsf/*.h: change those.
+! Made by bindings/generate.py from the headers in capi/include/wfpsf: change those.
 !
 ! The C interface as it stands, described in the C headers. The module wfpsf is the comfortable way.
 
@@ -31,7 +31,6 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_error_overlap = -80
     integer(c_int32_t), parameter :: wfpsf_error_already_applied = -90
     integer(c_int32_t), parameter :: wfpsf_error_kernel = -100
-    integer(c_int32_t), parameter :: wfpsf_error_tolerance = -110
     integer(c_int32_t), parameter :: wfpsf_error_file_open = -200
     integer(c_int32_t), parameter :: wfpsf_error_file_format = -210
     integer(c_int32_t), parameter :: wfpsf_error_file_write = -220

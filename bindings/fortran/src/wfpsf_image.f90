@@ -53,15 +53,12 @@ contains
         integer, intent(out), optional :: stat
         character(len=*), intent(inout), optional :: errmsg
         type(c_ptr) :: created
-        integer(c_int64_t) :: bytes(2), stride(2)
+        integer(c_int64_t) :: stride(2)
         integer :: status
 
-        bytes = [distance(first, right), distance(first, above)]
-        stride = bytes / (pixel_type / 8)
+        stride = [distance(first, right), distance(first, above)] / (pixel_type / 8)
         if (n(1) == 1) stride(1) = 1
         if (n(2) == 1) stride(2) = n(1) * stride(1)
-        ! A part of a larger type need not stand whole elements apart: a stride of 0 is refused.
-        where (modulo(bytes, int(pixel_type / 8, c_int64_t)) /= 0) stride = 0
         status = wfpsf_image_wrap(pixel_type, first, int(n(1), c_int64_t), int(n(2), c_int64_t), &
             stride(1), stride(2), int(oversampling, c_int64_t), created)
         call self%destroy()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Made by bindings/generate.py from capi/include/wfpsf/*.h: change those.
+# Made by bindings/generate.py from the headers in capi/include/wfpsf: change those.
 
 """
 The C interface as it stands: every function and constant, described in the C headers. Positions
@@ -47,7 +47,6 @@ const WFPSF_ERROR_UNKNOWN_NAME = Int32(-70)
 const WFPSF_ERROR_OVERLAP = Int32(-80)
 const WFPSF_ERROR_ALREADY_APPLIED = Int32(-90)
 const WFPSF_ERROR_KERNEL = Int32(-100)
-const WFPSF_ERROR_TOLERANCE = Int32(-110)
 const WFPSF_ERROR_FILE_OPEN = Int32(-200)
 const WFPSF_ERROR_FILE_FORMAT = Int32(-210)
 const WFPSF_ERROR_FILE_WRITE = Int32(-220)

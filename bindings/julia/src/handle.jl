@@ -10,7 +10,8 @@ function Base.unsafe_convert(::Type{Ptr{Cvoid}}, handle::Handle)
     return pointer
 end
 
-# Also the finalizer: it must not lock, print, throw or yield, nor do the library's destroy functions.
+# Also the finalizer, which must not lock, print, throw or yield; the library's destroy functions do
+# not.
 function Base.close(handle::Handle)
     pointer = getfield(handle, :pointer)
     setfield!(handle, :pointer, C_NULL)

@@ -44,24 +44,28 @@ struct Moments
     edge_fraction::Float64
 end
 
+const MOMENTS_FIELDS = fieldnames(Moments)[2:end]
+const MOMENTS_KEYS = Tuple(MOMENTS_PROPERTIES[name] for name in MOMENTS_FIELDS)
+const MOMENTS_ORIGINS = Tuple(Int(startswith(String(name), "centroid")) for name in MOMENTS_FIELDS)
+
+function copied(status, handle)
+    value = Ref{Float64}()
+    numbers = ntuple(Val(length(MOMENTS_KEYS))) do k
+        LibWfpsf.wfpsf_moments_get(handle, MOMENTS_KEYS[k], value)
+        value[] + MOMENTS_ORIGINS[k]
+    end
+    return Moments(status, numbers...)
+end
+
 # Runs `measure(out)`, which makes a result in most cases of failure too, and copies it.
 function measured(measure, strict)
     out = Ref(C_NULL)
     status = measure(out)
-    # Nothing below fails before the status is looked at, so its text is still there.
-    moments = out[] == C_NULL ? nothing : copied(status, out[])
+    out[] == C_NULL && check(status)
+    moments = copied(status, out[])
     LibWfpsf.wfpsf_moments_destroy(out[])
-    (strict || moments === nothing) && check(status)
-    return moments::Moments
-end
-
-function copied(status, handle)
-    numbers = map(fieldnames(Moments)[2:end]) do name
-        value = Ref{Float64}()
-        LibWfpsf.wfpsf_moments_get(handle, MOMENTS_PROPERTIES[name], value)
-        return name in (:centroid_x, :centroid_y) ? value[] + 1 : value[]
-    end
-    return Moments(status, numbers...)
+    strict && check(status)
+    return moments
 end
 
 """

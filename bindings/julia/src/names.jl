@@ -11,5 +11,6 @@ end
 
 function choose(table, argument, name)
     haskey(table, name) && return table[name]
-    throw(ArgumentError("$argument = $(repr(name)): must be one of $(join(repr.(keys(table)), ", "))"))
+    allowed = join(repr.(keys(table)), ", ")
+    throw(ArgumentError("$argument = $(repr(name)): must be one of $allowed"))
 end

@@ -22,8 +22,8 @@ end
 @testset "errors" begin
     failure = try
         Instrument("hubble")
-    catch error
-        error
+    catch e
+        e
     end
     @test failure isa WfpsfError
     @test failure.code == LibWfpsf.WFPSF_ERROR_UNKNOWN_NAME

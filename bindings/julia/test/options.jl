@@ -16,7 +16,8 @@ instrument = Instrument()
 @test status_of(() -> PSF(instrument, 7, 1292; eps = 1)) == LibWfpsf.WFPSF_ERROR_RANGE
 @test status_of(() -> PSF(instrument, 7, 1292; eps = NaN)) == LibWfpsf.WFPSF_ERROR_NOT_FINITE
 @test_throws InexactError PSF(instrument, 7, 1292; struts = 0.5)
-@test PSF(psf -> psf.radius, instrument, 7, 1292; psf_radius = 5, struts = false, eps = nothing) >= 5
+defaults = (eps = nothing, struts = true)
+@test PSF(psf -> psf.radius, instrument, 7, 1292; psf_radius = 5, defaults...) >= 5
 
 Wfpsf.Options() do handle
     stored = Ref{Float64}()

@@ -16,6 +16,12 @@ star = draw(psf, 15, 17; oversampling = 3, flux = 2)
 @test star.pixels == draw!(Image(Float64, 15, 17; oversampling = 3), psf, 8, 9; flux = 2).pixels
 @test draw(psf, 15, 17; oversampling = 3).pixels ≈ star.pixels / 2
 
+# Without aberrations a star at the image's centre looks the same from the other side.
+perfect = PSF(Instrument(), 7, 1292; zernikes = -zernikes(Instrument(), 7), piston_tilt = true,
+              eps = 1e-5)
+pixels = draw(perfect, 15, 18; oversampling = 3).pixels
+@test maximum(abs, pixels - pixels[end:-1:1, end:-1:1]) < 1e-5 * maximum(pixels)
+
 # A star moved by whole pixels is the same star.
 moved = draw(psf, 19, 20; x = 8 + 4, y = 9 + 2, oversampling = 3, flux = 2)
 @test maximum(abs, moved.pixels[5:19, 3:19] - star.pixels) < 3e-5 * maximum(star.pixels)
@@ -32,7 +38,8 @@ moved = draw(psf, 19, 20; x = 8 + 4, y = 9 + 2, oversampling = 3, flux = 2)
 end
 
 @testset "mask" begin
-    # The bare annulus as squares. Under a strong defocus an axis that is a pixel off shifts the PSF.
+    # The bare annulus as squares. Under a strong defocus, an axis that is a pixel off shifts the
+    # PSF.
     instrument = Instrument()
     diameter = constant(instrument, "diameter").value
     obscuration = constant(instrument, "obscuration").value

@@ -21,9 +21,9 @@ function status_of(call)
     return LibWfpsf.WFPSF_OK
 end
 
-for subject in ("handle", "options", "instrument", "image", "interleave", "psf", "ipc", "moments",
-                "size")
-    @testset "$subject" begin
+@testset "Wfpsf" begin
+    @testset "$subject" for subject in ("handle", "options", "instrument", "image", "interleave",
+                                        "psf", "ipc", "moments", "size")
         include("$subject.jl")
     end
 end

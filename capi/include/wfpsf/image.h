@@ -143,8 +143,9 @@ WFPSF_EXPORT wfpsf_status wfpsf_image_write_fits(const wfpsf_image *image, const
  *           convention  WFPSF_DITHER_*
  * Returned: out         pixels of an image of size (n_x nx, n_y ny); its oversampling becomes n_x
  *                       times the inputs' if n_x = n_y, else is left alone
- * Status:   ERROR_NULL, ERROR_ARGUMENT (also offsets that are no equal steps, or repeat),
- *           ERROR_SIZE, ERROR_TYPE, ERROR_OVERLAP
+ * Status:   ERROR_NULL, ERROR_RANGE (n_x or n_y outside 1..4096, an offset that is none of the n_x
+ * or n_y equal steps within 1e-8), ERROR_NOT_FINITE, ERROR_ARGUMENT (a convention that is none, two
+ * images of one offset), ERROR_SIZE, ERROR_TYPE, ERROR_OVERLAP
  */
 WFPSF_EXPORT wfpsf_status wfpsf_image_interleave(int64_t n_x, int64_t n_y,
                                                  const wfpsf_image *const *images, const double *dx,
@@ -156,8 +157,8 @@ WFPSF_EXPORT wfpsf_status wfpsf_image_interleave(int64_t n_x, int64_t n_y,
  *
  * Given:    image       the fine image, of size (n_x nx, n_y ny)
  *           n_x, n_y, dx, dy, convention  as for interleave
- * Returned: out         n_x * n_y images of size (nx, ny)
- * Status:   as for interleave
+ * Returned: out         n_x * n_y images of size (nx, ny), sharing no memory with each other
+ * Status:   as for interleave; ERROR_ARGUMENT also if n_x = n_y does not divide the oversampling
  */
 WFPSF_EXPORT wfpsf_status wfpsf_image_deinterleave(const wfpsf_image *image, int64_t n_x,
                                                    int64_t n_y, const double *dx, const double *dy,

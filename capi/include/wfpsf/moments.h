@@ -65,8 +65,8 @@ WFPSF_EXPORT wfpsf_status wfpsf_moments_measure(const wfpsf_image *image,
  *
  * Given:    x, y   the point; NaN for both: the centroid
  * Returned: out    the result; NULL on failure
- * Status:   ERROR_NULL, ERROR_NOT_FINITE, ERROR_MOMENTS_FLUX (the pixels sum to zero),
- *           ERROR_NO_MEMORY
+ * Status:   ERROR_NULL, ERROR_NOT_FINITE, ERROR_MOMENTS_NO_PIXELS (an empty image),
+ *           ERROR_MOMENTS_FLUX (the pixels sum to zero), ERROR_NO_MEMORY
  */
 WFPSF_EXPORT wfpsf_status wfpsf_moments_measure_unweighted(const wfpsf_image *image, double x,
                                                            double y, wfpsf_moments **out);

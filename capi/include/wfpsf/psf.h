@@ -47,7 +47,7 @@ enum { WFPSF_PSF_PROPERTY_LIST(WFPSF_PSF_PROPERTY_ENUM) };
  *           wavelength_nm  100..100000
  *           options        EPS, STRUTS, PSF_RADIUS, PISTON_TILT and extra Zernikes
  * Returned: out            the handle; NULL on failure
- * Status:   ERROR_NULL, ERROR_RANGE, ERROR_NOT_FINITE, ERROR_TOLERANCE, ERROR_NO_MEMORY;
+ * Status:   ERROR_NULL, ERROR_RANGE, ERROR_NOT_FINITE, ERROR_NO_MEMORY;
  *           WARNING_NOT_CERTIFIED if the error estimate stays above EPS
  */
 WFPSF_EXPORT wfpsf_status wfpsf_psf_create(const wfpsf_instrument *instrument, int32_t sca,

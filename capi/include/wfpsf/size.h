@@ -49,7 +49,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_size_encircled_energy(const wfpsf_image *image, 
  *           options   SIZE_TOTAL_FLUX, SIZE_BANDWIDTH
  * Returned: radius
  *           error     estimate of its error; may be NULL; NaN for the pixel methods
- * Status:   as for wfpsf_size_encircled_energy(), ERROR_ARGUMENT
+ * Status:   as for wfpsf_size_encircled_energy(), ERROR_ARGUMENT; ERROR_RANGE also for the fraction
  */
 WFPSF_EXPORT wfpsf_status wfpsf_size_ee_radius(const wfpsf_image *image, double x, double y,
                                                double fraction, int32_t method,

@@ -39,7 +39,6 @@ typedef int32_t wfpsf_status;
     X(ERROR_OVERLAP, -80, "input and output share memory")                                         \
     X(ERROR_ALREADY_APPLIED, -90, "the image records that this effect was applied before")         \
     X(ERROR_KERNEL, -100, "the taps do not make an IPC kernel")                                    \
-    X(ERROR_TOLERANCE, -110, "the tolerance asked for cannot be reached")                          \
     X(ERROR_FILE_OPEN, -200, "a file cannot be opened")                                            \
     X(ERROR_FILE_FORMAT, -210, "a file does not hold what it should")                              \
     X(ERROR_FILE_WRITE, -220, "a file cannot be written")                                          \

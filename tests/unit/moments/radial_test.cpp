@@ -65,7 +65,10 @@ TEST(Radial, ErrorsNameTheCause) {
               WFPSF_ERROR_SIZE_NOT_REACHED);
     EXPECT_EQ(thrown([&] { enclosing_radius(View<const double>{}, 0, 0); }), WFPSF_ERROR_RANGE);
     Plane<double> flat(3, 3);
-    flat(1, 1) = 0;
+    EXPECT_EQ(thrown([&] { full_width_half_maximum(view_of(flat), 1, 1); }),
+              WFPSF_ERROR_MOMENTS_FLUX);
+    for (int64_t i = 0; i < 9; ++i)
+        flat(i % 3, i / 3) = 1;
     EXPECT_EQ(thrown([&] { full_width_half_maximum(view_of(flat), 1, 1); }),
               WFPSF_ERROR_SIZE_NOT_REACHED);
     image(2, 2) = std::numeric_limits<double>::quiet_NaN();

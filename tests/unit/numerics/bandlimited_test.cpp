@@ -51,6 +51,21 @@ TEST(Bandlimited, SamplesThemselvesAreReturnedUnchanged) {
         EXPECT_EQ(w[k], first + static_cast<int64_t>(k) == -7 ? 1.0 : 0.0);
 }
 
+TEST(Bandlimited, PlacesNextToASampleAreAsGoodAsAnyOther) {
+    for (const double eps : {1e-3, 1e-9}) {
+        const BandlimitedInterpolator interpolator(0.25, eps);
+        std::vector<double> w(static_cast<size_t>(interpolator.taps()));
+        for (int sample = -3; sample <= 3; ++sample)
+            for (const double gap : {0x1p-53, -0x1p-53, 0x1p-52, -0x1p-51, 1e-13, -1e-13, -1e-9}) {
+                const double x = sample + gap;
+                const int64_t first = interpolator.weights(x, w.data());
+                for (size_t k = 0; k < w.size(); ++k)
+                    EXPECT_NEAR(w[k], first + static_cast<int64_t>(k) == sample ? 1.0 : 0.0,
+                                2 * std::abs(gap) + 1e-15);
+            }
+    }
+}
+
 TEST(Bandlimited, AveragingFilterMultipliesWavesByTheWindowsSinc) {
     const double bandwidth = 0.25;
     for (const double width : {0.3, 1.0, 3.7, 4.0, 32.0})

@@ -1,0 +1,696 @@
+! SPDX-License-Identifier: GPL-3.0-or-later
+! Made by bindings/generate.py from the headers in capi/include/wfpsf: change those.
+!
+! The C interface as it stands, described in the C headers. The module wfpsf is the comfortable way.
+
+! Every constant.
+module wfpsf_constants
+    use, intrinsic :: iso_c_binding, only: c_int32_t
+    implicit none
+    private :: c_int32_t
+
+    ! version.h
+    integer(c_int32_t), parameter :: wfpsf_version_major = 0
+    integer(c_int32_t), parameter :: wfpsf_version_minor = 1
+    integer(c_int32_t), parameter :: wfpsf_version_patch = 0
+    integer(c_int32_t), parameter :: wfpsf_headers_abi_number = 0
+
+    ! status.h
+    integer(c_int32_t), parameter :: wfpsf_ok = 0
+    integer(c_int32_t), parameter :: wfpsf_warning_not_converged = 100
+    integer(c_int32_t), parameter :: wfpsf_warning_not_certified = 110
+    integer(c_int32_t), parameter :: wfpsf_warning_restarted = 120
+    integer(c_int32_t), parameter :: wfpsf_warning_near_degenerate = 130
+    integer(c_int32_t), parameter :: wfpsf_error_null = -10
+    integer(c_int32_t), parameter :: wfpsf_error_argument = -20
+    integer(c_int32_t), parameter :: wfpsf_error_range = -30
+    integer(c_int32_t), parameter :: wfpsf_error_size = -40
+    integer(c_int32_t), parameter :: wfpsf_error_type = -50
+    integer(c_int32_t), parameter :: wfpsf_error_not_finite = -60
+    integer(c_int32_t), parameter :: wfpsf_error_unknown_name = -70
+    integer(c_int32_t), parameter :: wfpsf_error_overlap = -80
+    integer(c_int32_t), parameter :: wfpsf_error_already_applied = -90
+    integer(c_int32_t), parameter :: wfpsf_error_kernel = -100
+    integer(c_int32_t), parameter :: wfpsf_error_file_open = -200
+    integer(c_int32_t), parameter :: wfpsf_error_file_format = -210
+    integer(c_int32_t), parameter :: wfpsf_error_file_write = -220
+    integer(c_int32_t), parameter :: wfpsf_error_moments_no_pixels = -300
+    integer(c_int32_t), parameter :: wfpsf_error_moments_flux = -310
+    integer(c_int32_t), parameter :: wfpsf_error_moments_unresolved = -320
+    integer(c_int32_t), parameter :: wfpsf_error_moments_fills_image = -330
+    integer(c_int32_t), parameter :: wfpsf_error_moments_outside = -340
+    integer(c_int32_t), parameter :: wfpsf_error_moments_stalled = -350
+    integer(c_int32_t), parameter :: wfpsf_error_size_not_reached = -400
+    integer(c_int32_t), parameter :: wfpsf_error_no_memory = -900
+    integer(c_int32_t), parameter :: wfpsf_error_internal = -910
+    integer(c_int32_t), parameter :: wfpsf_error_abi = -920
+
+    ! options.h
+    integer(c_int32_t), parameter :: wfpsf_option_eps = 100
+    integer(c_int32_t), parameter :: wfpsf_option_struts = 110
+    integer(c_int32_t), parameter :: wfpsf_option_psf_radius = 120
+    integer(c_int32_t), parameter :: wfpsf_option_piston_tilt = 130
+    integer(c_int32_t), parameter :: wfpsf_option_force = 200
+    integer(c_int32_t), parameter :: wfpsf_option_ipc_fill = 210
+    integer(c_int32_t), parameter :: wfpsf_option_kernel_negative = 220
+    integer(c_int32_t), parameter :: wfpsf_option_kernel_normalise = 230
+    integer(c_int32_t), parameter :: wfpsf_option_moments_tolerance = 300
+    integer(c_int32_t), parameter :: wfpsf_option_moments_max_passes = 310
+    integer(c_int32_t), parameter :: wfpsf_option_moments_guess_x = 320
+    integer(c_int32_t), parameter :: wfpsf_option_moments_guess_y = 330
+    integer(c_int32_t), parameter :: wfpsf_option_moments_guess_sigma = 340
+    integer(c_int32_t), parameter :: wfpsf_option_size_total_flux = 400
+    integer(c_int32_t), parameter :: wfpsf_option_size_bandwidth = 410
+    integer(c_int32_t), parameter :: wfpsf_option_fits_overwrite = 500
+    integer(c_int32_t), parameter :: wfpsf_option_real = 1
+    integer(c_int32_t), parameter :: wfpsf_option_integer = 2
+
+    ! image.h
+    integer(c_int32_t), parameter :: wfpsf_float32 = 32
+    integer(c_int32_t), parameter :: wfpsf_float64 = 64
+    integer(c_int32_t), parameter :: wfpsf_effect_pixel_response = 1
+    integer(c_int32_t), parameter :: wfpsf_effect_ipc = 2
+    integer(c_int32_t), parameter :: wfpsf_effect_ipc_correction = 4
+    integer(c_int32_t), parameter :: wfpsf_dither_detector = 1
+    integer(c_int32_t), parameter :: wfpsf_dither_object = 2
+
+    ! instrument.h
+    integer(c_int32_t), parameter :: wfpsf_band_tabulated = 1
+    integer(c_int32_t), parameter :: wfpsf_band_paper = 2
+
+    ! psf.h
+    integer(c_int32_t), parameter :: wfpsf_psf_wavelength_nm = 10
+    integer(c_int32_t), parameter :: wfpsf_psf_pixel_scale_arcsec = 20
+    integer(c_int32_t), parameter :: wfpsf_psf_error_estimate = 30
+    integer(c_int32_t), parameter :: wfpsf_psf_model_error = 40
+    integer(c_int32_t), parameter :: wfpsf_psf_peak = 50
+    integer(c_int32_t), parameter :: wfpsf_psf_nodes = 60
+    integer(c_int32_t), parameter :: wfpsf_psf_grid_size = 70
+    integer(c_int32_t), parameter :: wfpsf_psf_grid_step_arcsec = 80
+    integer(c_int32_t), parameter :: wfpsf_psf_radius = 90
+    integer(c_int32_t), parameter :: wfpsf_psf_lit_area_m2 = 100
+
+    ! ipc.h
+    integer(c_int32_t), parameter :: wfpsf_edge_zero = 0
+    integer(c_int32_t), parameter :: wfpsf_edge_replicate = 1
+    integer(c_int32_t), parameter :: wfpsf_edge_wrap = 2
+    integer(c_int32_t), parameter :: wfpsf_edge_crop = 3
+    integer(c_int32_t), parameter :: wfpsf_edge_fill = 4
+    integer(c_int32_t), parameter :: wfpsf_edge_valid = 5
+
+    ! moments.h
+    integer(c_int32_t), parameter :: wfpsf_moments_centroid_x = 10
+    integer(c_int32_t), parameter :: wfpsf_moments_centroid_y = 20
+    integer(c_int32_t), parameter :: wfpsf_moments_mxx = 30
+    integer(c_int32_t), parameter :: wfpsf_moments_mxy = 40
+    integer(c_int32_t), parameter :: wfpsf_moments_myy = 50
+    integer(c_int32_t), parameter :: wfpsf_moments_sigma = 60
+    integer(c_int32_t), parameter :: wfpsf_moments_sigma_trace = 70
+    integer(c_int32_t), parameter :: wfpsf_moments_e1 = 80
+    integer(c_int32_t), parameter :: wfpsf_moments_e2 = 90
+    integer(c_int32_t), parameter :: wfpsf_moments_e = 100
+    integer(c_int32_t), parameter :: wfpsf_moments_beta = 110
+    integer(c_int32_t), parameter :: wfpsf_moments_flux = 120
+    integer(c_int32_t), parameter :: wfpsf_moments_rho4 = 130
+    integer(c_int32_t), parameter :: wfpsf_moments_passes = 140
+    integer(c_int32_t), parameter :: wfpsf_moments_error_estimate = 150
+    integer(c_int32_t), parameter :: wfpsf_moments_residual = 160
+    integer(c_int32_t), parameter :: wfpsf_moments_curvature = 170
+    integer(c_int32_t), parameter :: wfpsf_moments_edge_fraction = 180
+
+    ! size.h
+    integer(c_int32_t), parameter :: wfpsf_size_bandlimited = 1
+    integer(c_int32_t), parameter :: wfpsf_size_pixel_sum = 2
+    integer(c_int32_t), parameter :: wfpsf_size_pixel_interpolated = 3
+
+end module wfpsf_constants
+
+! Every function. Positions count from (0, 0) here. Handles are values of type(c_ptr), text ends
+! with c_null_char. An optional argument that is absent is a NULL. Outputs are intent(inout) because
+! an error leaves them alone.
+module wfpsf_c
+    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int32_t, c_int64_t, c_ptr
+    use wfpsf_constants
+    implicit none
+    private :: c_char, c_double, c_int32_t, c_int64_t, c_ptr
+
+    interface
+        ! version.h
+        function wfpsf_version() bind(c, name="wfpsf_version") result(outcome)
+            import :: c_ptr
+            implicit none
+            type(c_ptr) :: outcome
+        end function wfpsf_version
+
+        function wfpsf_abi_number() bind(c, name="wfpsf_abi_number") result(outcome)
+            import :: c_int32_t
+            implicit none
+            integer(c_int32_t) :: outcome
+        end function wfpsf_abi_number
+
+        function wfpsf_abi_check(expected) bind(c, name="wfpsf_abi_check") result(outcome)
+            import :: c_int32_t
+            implicit none
+            integer(c_int32_t), value :: expected
+            integer(c_int32_t) :: outcome
+        end function wfpsf_abi_check
+
+        ! status.h
+        function wfpsf_status_name(status) bind(c, name="wfpsf_status_name") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            integer(c_int32_t), value :: status
+            type(c_ptr) :: outcome
+        end function wfpsf_status_name
+
+        function wfpsf_status_string(status) bind(c, name="wfpsf_status_string") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            integer(c_int32_t), value :: status
+            type(c_ptr) :: outcome
+        end function wfpsf_status_string
+
+        function wfpsf_last_error(buffer, length) bind(c, name="wfpsf_last_error") result(outcome)
+            import :: c_char, c_int64_t
+            implicit none
+            character(kind=c_char), intent(inout), optional :: buffer(*)
+            integer(c_int64_t), value :: length
+            integer(c_int64_t) :: outcome
+        end function wfpsf_last_error
+
+        ! options.h
+        function wfpsf_options_create(out) bind(c, name="wfpsf_options_create") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_options_create
+
+        subroutine wfpsf_options_destroy(options) bind(c, name="wfpsf_options_destroy")
+            import :: c_ptr
+            implicit none
+            type(c_ptr), value :: options
+        end subroutine wfpsf_options_destroy
+
+        function wfpsf_options_set_real(options, key, value) &
+            bind(c, name="wfpsf_options_set_real") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: options
+            integer(c_int32_t), value :: key
+            real(c_double), value :: value
+            integer(c_int32_t) :: outcome
+        end function wfpsf_options_set_real
+
+        function wfpsf_options_set_integer(options, key, value) &
+            bind(c, name="wfpsf_options_set_integer") result(outcome)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: options
+            integer(c_int32_t), value :: key
+            integer(c_int64_t), value :: value
+            integer(c_int32_t) :: outcome
+        end function wfpsf_options_set_integer
+
+        function wfpsf_options_get(options, key, value) &
+            bind(c, name="wfpsf_options_get") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: options
+            integer(c_int32_t), value :: key
+            real(c_double), intent(inout), optional :: value
+            integer(c_int32_t) :: outcome
+        end function wfpsf_options_get
+
+        function wfpsf_options_reset(options, key) &
+            bind(c, name="wfpsf_options_reset") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: options
+            integer(c_int32_t), value :: key
+            integer(c_int32_t) :: outcome
+        end function wfpsf_options_reset
+
+        function wfpsf_options_set_zernikes(options, count, coefficients) &
+            bind(c, name="wfpsf_options_set_zernikes") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: options
+            integer(c_int64_t), value :: count
+            real(c_double), intent(in), optional :: coefficients(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_options_set_zernikes
+
+        function wfpsf_option_describe(key, name, text, kind, standard, smallest, largest) &
+            bind(c, name="wfpsf_option_describe") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            integer(c_int32_t), value :: key
+            type(c_ptr), intent(inout), optional :: name
+            type(c_ptr), intent(inout), optional :: text
+            integer(c_int32_t), intent(inout), optional :: kind
+            real(c_double), intent(inout), optional :: standard
+            real(c_double), intent(inout), optional :: smallest
+            real(c_double), intent(inout), optional :: largest
+            integer(c_int32_t) :: outcome
+        end function wfpsf_option_describe
+
+        ! image.h
+        function wfpsf_image_create(pixel_type, nx, ny, oversampling, out) &
+            bind(c, name="wfpsf_image_create") result(outcome)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            integer(c_int32_t), value :: pixel_type
+            integer(c_int64_t), value :: nx
+            integer(c_int64_t), value :: ny
+            integer(c_int64_t), value :: oversampling
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_image_create
+
+        function wfpsf_image_wrap(pixel_type, data, nx, ny, stride_x, stride_y, oversampling, out) &
+            bind(c, name="wfpsf_image_wrap") result(outcome)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            integer(c_int32_t), value :: pixel_type
+            type(c_ptr), value :: data
+            integer(c_int64_t), value :: nx
+            integer(c_int64_t), value :: ny
+            integer(c_int64_t), value :: stride_x
+            integer(c_int64_t), value :: stride_y
+            integer(c_int64_t), value :: oversampling
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_image_wrap
+
+        subroutine wfpsf_image_destroy(image) bind(c, name="wfpsf_image_destroy")
+            import :: c_ptr
+            implicit none
+            type(c_ptr), value :: image
+        end subroutine wfpsf_image_destroy
+
+        function wfpsf_image_shape(image, pixel_type, nx, ny) &
+            bind(c, name="wfpsf_image_shape") result(outcome)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: image
+            integer(c_int32_t), intent(inout), optional :: pixel_type
+            integer(c_int64_t), intent(inout), optional :: nx
+            integer(c_int64_t), intent(inout), optional :: ny
+            integer(c_int32_t) :: outcome
+        end function wfpsf_image_shape
+
+        function wfpsf_image_record(image, oversampling, pixel_scale_arcsec, applied) &
+            bind(c, name="wfpsf_image_record") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: image
+            integer(c_int64_t), intent(inout), optional :: oversampling
+            real(c_double), intent(inout), optional :: pixel_scale_arcsec
+            integer(c_int32_t), intent(inout), optional :: applied
+            integer(c_int32_t) :: outcome
+        end function wfpsf_image_record
+
+        function wfpsf_image_set_record(image, oversampling, pixel_scale_arcsec, applied) &
+            bind(c, name="wfpsf_image_set_record") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: image
+            integer(c_int64_t), value :: oversampling
+            real(c_double), value :: pixel_scale_arcsec
+            integer(c_int32_t), value :: applied
+            integer(c_int32_t) :: outcome
+        end function wfpsf_image_set_record
+
+        function wfpsf_image_copy(from, to) bind(c, name="wfpsf_image_copy") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: from
+            type(c_ptr), value :: to
+            integer(c_int32_t) :: outcome
+        end function wfpsf_image_copy
+
+        function wfpsf_image_read_fits(path, hdu, pixel_type, out) &
+            bind(c, name="wfpsf_image_read_fits") result(outcome)
+            import :: c_char, c_int32_t, c_ptr
+            implicit none
+            character(kind=c_char), intent(in), optional :: path(*)
+            character(kind=c_char), intent(in), optional :: hdu(*)
+            integer(c_int32_t), value :: pixel_type
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_image_read_fits
+
+        function wfpsf_image_write_fits(image, path, options) &
+            bind(c, name="wfpsf_image_write_fits") result(outcome)
+            import :: c_char, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: image
+            character(kind=c_char), intent(in), optional :: path(*)
+            type(c_ptr), value :: options
+            integer(c_int32_t) :: outcome
+        end function wfpsf_image_write_fits
+
+        function wfpsf_image_interleave(n_x, n_y, images, dx, dy, convention, out) &
+            bind(c, name="wfpsf_image_interleave") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            integer(c_int64_t), value :: n_x
+            integer(c_int64_t), value :: n_y
+            type(c_ptr), intent(in), optional :: images(*)
+            real(c_double), intent(in), optional :: dx(*)
+            real(c_double), intent(in), optional :: dy(*)
+            integer(c_int32_t), value :: convention
+            type(c_ptr), value :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_image_interleave
+
+        function wfpsf_image_deinterleave(image, n_x, n_y, dx, dy, convention, out) &
+            bind(c, name="wfpsf_image_deinterleave") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: image
+            integer(c_int64_t), value :: n_x
+            integer(c_int64_t), value :: n_y
+            real(c_double), intent(in), optional :: dx(*)
+            real(c_double), intent(in), optional :: dy(*)
+            integer(c_int32_t), value :: convention
+            type(c_ptr), intent(in), optional :: out(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_image_deinterleave
+
+        ! instrument.h
+        function wfpsf_instrument_create(name, out) &
+            bind(c, name="wfpsf_instrument_create") result(outcome)
+            import :: c_char, c_int32_t, c_ptr
+            implicit none
+            character(kind=c_char), intent(in), optional :: name(*)
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_instrument_create
+
+        subroutine wfpsf_instrument_destroy(instrument) bind(c, name="wfpsf_instrument_destroy")
+            import :: c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+        end subroutine wfpsf_instrument_destroy
+
+        function wfpsf_instrument_constant(instrument, name, value, unit) &
+            bind(c, name="wfpsf_instrument_constant") result(outcome)
+            import :: c_char, c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            character(kind=c_char), intent(in), optional :: name(*)
+            real(c_double), intent(inout), optional :: value
+            type(c_ptr), intent(inout), optional :: unit
+            integer(c_int32_t) :: outcome
+        end function wfpsf_instrument_constant
+
+        function wfpsf_instrument_constant_name(instrument, index) &
+            bind(c, name="wfpsf_instrument_constant_name") result(outcome)
+            import :: c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            integer(c_int64_t), value :: index
+            type(c_ptr) :: outcome
+        end function wfpsf_instrument_constant_name
+
+        function wfpsf_instrument_band_name(instrument, index) &
+            bind(c, name="wfpsf_instrument_band_name") result(outcome)
+            import :: c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            integer(c_int64_t), value :: index
+            type(c_ptr) :: outcome
+        end function wfpsf_instrument_band_name
+
+        function wfpsf_instrument_band(instrument, band, rule, blue_nm, red_nm, effective_nm) &
+            bind(c, name="wfpsf_instrument_band") result(outcome)
+            import :: c_char, c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            character(kind=c_char), intent(in), optional :: band(*)
+            integer(c_int32_t), value :: rule
+            real(c_double), intent(inout), optional :: blue_nm
+            real(c_double), intent(inout), optional :: red_nm
+            real(c_double), intent(inout), optional :: effective_nm
+            integer(c_int32_t) :: outcome
+        end function wfpsf_instrument_band
+
+        function wfpsf_instrument_throughput(instrument, band, count, wavelength_nm, throughput) &
+            bind(c, name="wfpsf_instrument_throughput") result(outcome)
+            import :: c_char, c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            character(kind=c_char), intent(in), optional :: band(*)
+            integer(c_int64_t), value :: count
+            real(c_double), intent(in), optional :: wavelength_nm(*)
+            real(c_double), intent(inout), optional :: throughput(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_instrument_throughput
+
+        function wfpsf_instrument_zernikes(instrument, sca, capacity, coefficients, count) &
+            bind(c, name="wfpsf_instrument_zernikes") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            integer(c_int32_t), value :: sca
+            integer(c_int64_t), value :: capacity
+            real(c_double), intent(inout), optional :: coefficients(*)
+            integer(c_int64_t), intent(inout), optional :: count
+            integer(c_int32_t) :: outcome
+        end function wfpsf_instrument_zernikes
+
+        ! psf.h
+        function wfpsf_psf_create(instrument, sca, wavelength_nm, options, out) &
+            bind(c, name="wfpsf_psf_create") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            integer(c_int32_t), value :: sca
+            real(c_double), value :: wavelength_nm
+            type(c_ptr), value :: options
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_psf_create
+
+        function wfpsf_psf_create_from_mask(instrument, mask, mask_scale_m, axis_x, axis_y, sca, &
+            wavelength_nm, options, out) bind(c, name="wfpsf_psf_create_from_mask") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            type(c_ptr), value :: mask
+            real(c_double), value :: mask_scale_m
+            real(c_double), value :: axis_x
+            real(c_double), value :: axis_y
+            integer(c_int32_t), value :: sca
+            real(c_double), value :: wavelength_nm
+            type(c_ptr), value :: options
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_psf_create_from_mask
+
+        subroutine wfpsf_psf_destroy(psf) bind(c, name="wfpsf_psf_destroy")
+            import :: c_ptr
+            implicit none
+            type(c_ptr), value :: psf
+        end subroutine wfpsf_psf_destroy
+
+        function wfpsf_psf_draw(psf, x, y, flux, image) &
+            bind(c, name="wfpsf_psf_draw") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: psf
+            real(c_double), value :: x
+            real(c_double), value :: y
+            real(c_double), value :: flux
+            type(c_ptr), value :: image
+            integer(c_int32_t) :: outcome
+        end function wfpsf_psf_draw
+
+        function wfpsf_psf_get(psf, key, value) bind(c, name="wfpsf_psf_get") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: psf
+            integer(c_int32_t), value :: key
+            real(c_double), intent(inout), optional :: value
+            integer(c_int32_t) :: outcome
+        end function wfpsf_psf_get
+
+        ! ipc.h
+        function wfpsf_ipc_kernel_create(alpha, alpha_prime, alpha_plus, options, out) &
+            bind(c, name="wfpsf_ipc_kernel_create") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            real(c_double), value :: alpha
+            real(c_double), value :: alpha_prime
+            real(c_double), value :: alpha_plus
+            type(c_ptr), value :: options
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_kernel_create
+
+        function wfpsf_ipc_kernel_create_taps(nx, ny, taps, options, out) &
+            bind(c, name="wfpsf_ipc_kernel_create_taps") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            integer(c_int64_t), value :: nx
+            integer(c_int64_t), value :: ny
+            real(c_double), intent(in), optional :: taps(*)
+            type(c_ptr), value :: options
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_kernel_create_taps
+
+        function wfpsf_ipc_kernel_create_wfc3(out) &
+            bind(c, name="wfpsf_ipc_kernel_create_wfc3") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_kernel_create_wfc3
+
+        function wfpsf_ipc_kernel_create_default(instrument, out) &
+            bind(c, name="wfpsf_ipc_kernel_create_default") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_kernel_create_default
+
+        function wfpsf_ipc_kernel_create_correction(kernel, out) &
+            bind(c, name="wfpsf_ipc_kernel_create_correction") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: kernel
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_kernel_create_correction
+
+        function wfpsf_ipc_kernel_create_flipped(kernel, out) &
+            bind(c, name="wfpsf_ipc_kernel_create_flipped") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: kernel
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_kernel_create_flipped
+
+        subroutine wfpsf_ipc_kernel_destroy(kernel) bind(c, name="wfpsf_ipc_kernel_destroy")
+            import :: c_ptr
+            implicit none
+            type(c_ptr), value :: kernel
+        end subroutine wfpsf_ipc_kernel_destroy
+
+        function wfpsf_ipc_kernel_taps(kernel, capacity, taps, nx, ny) &
+            bind(c, name="wfpsf_ipc_kernel_taps") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: kernel
+            integer(c_int64_t), value :: capacity
+            real(c_double), intent(inout), optional :: taps(*)
+            integer(c_int64_t), intent(inout), optional :: nx
+            integer(c_int64_t), intent(inout), optional :: ny
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_kernel_taps
+
+        function wfpsf_ipc_apply(kernel, in, edge, options, out) &
+            bind(c, name="wfpsf_ipc_apply") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: kernel
+            type(c_ptr), value :: in
+            integer(c_int32_t), value :: edge
+            type(c_ptr), value :: options
+            type(c_ptr), value :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_apply
+
+        ! moments.h
+        function wfpsf_moments_measure(image, options, out) &
+            bind(c, name="wfpsf_moments_measure") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: image
+            type(c_ptr), value :: options
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_moments_measure
+
+        function wfpsf_moments_measure_unweighted(image, x, y, out) &
+            bind(c, name="wfpsf_moments_measure_unweighted") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: image
+            real(c_double), value :: x
+            real(c_double), value :: y
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_moments_measure_unweighted
+
+        subroutine wfpsf_moments_destroy(moments) bind(c, name="wfpsf_moments_destroy")
+            import :: c_ptr
+            implicit none
+            type(c_ptr), value :: moments
+        end subroutine wfpsf_moments_destroy
+
+        function wfpsf_moments_status(moments) bind(c, name="wfpsf_moments_status") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: moments
+            integer(c_int32_t) :: outcome
+        end function wfpsf_moments_status
+
+        function wfpsf_moments_get(moments, key, value) &
+            bind(c, name="wfpsf_moments_get") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: moments
+            integer(c_int32_t), value :: key
+            real(c_double), intent(inout), optional :: value
+            integer(c_int32_t) :: outcome
+        end function wfpsf_moments_get
+
+        ! size.h
+        function wfpsf_size_encircled_energy(image, x, y, radius, options, fraction, error) &
+            bind(c, name="wfpsf_size_encircled_energy") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: image
+            real(c_double), value :: x
+            real(c_double), value :: y
+            real(c_double), value :: radius
+            type(c_ptr), value :: options
+            real(c_double), intent(inout), optional :: fraction
+            real(c_double), intent(inout), optional :: error
+            integer(c_int32_t) :: outcome
+        end function wfpsf_size_encircled_energy
+
+        function wfpsf_size_ee_radius(image, x, y, fraction, method, options, radius, error) &
+            bind(c, name="wfpsf_size_ee_radius") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: image
+            real(c_double), value :: x
+            real(c_double), value :: y
+            real(c_double), value :: fraction
+            integer(c_int32_t), value :: method
+            type(c_ptr), value :: options
+            real(c_double), intent(inout), optional :: radius
+            real(c_double), intent(inout), optional :: error
+            integer(c_int32_t) :: outcome
+        end function wfpsf_size_ee_radius
+
+        function wfpsf_size_fwhm(image, x, y, fwhm) bind(c, name="wfpsf_size_fwhm") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: image
+            real(c_double), value :: x
+            real(c_double), value :: y
+            real(c_double), intent(inout), optional :: fwhm
+            integer(c_int32_t) :: outcome
+        end function wfpsf_size_fwhm
+    end interface
+
+end module wfpsf_c

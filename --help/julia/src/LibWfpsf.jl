@@ -1,0 +1,549 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Made by bindings/generate.py from the headers in capi/include/wfpsf: change those.
+
+"""
+The C interface as it stands: every function and constant, described in the C headers. Positions
+count from (0, 0) here, handles are `Ptr{Cvoid}`. [`load`](@ref) comes first.
+"""
+module LibWfpsf
+
+using Libdl
+
+# version.h
+const WFPSF_VERSION_MAJOR = Int32(0)
+const WFPSF_VERSION_MINOR = Int32(1)
+const WFPSF_VERSION_PATCH = Int32(0)
+const WFPSF_ABI_NUMBER = Int32(0)
+
+const wfpsf_version_pointer = Ref(C_NULL)
+function wfpsf_version()
+    return ccall(wfpsf_version_pointer[], Cstring, ())
+end
+
+const wfpsf_abi_number_pointer = Ref(C_NULL)
+function wfpsf_abi_number()
+    return ccall(wfpsf_abi_number_pointer[], Int32, ())
+end
+
+const wfpsf_abi_check_pointer = Ref(C_NULL)
+function wfpsf_abi_check(expected)
+    return ccall(wfpsf_abi_check_pointer[], Int32, (Int32,),
+        expected)
+end
+
+# status.h
+const WFPSF_OK = Int32(0)
+const WFPSF_WARNING_NOT_CONVERGED = Int32(100)
+const WFPSF_WARNING_NOT_CERTIFIED = Int32(110)
+const WFPSF_WARNING_RESTARTED = Int32(120)
+const WFPSF_WARNING_NEAR_DEGENERATE = Int32(130)
+const WFPSF_ERROR_NULL = Int32(-10)
+const WFPSF_ERROR_ARGUMENT = Int32(-20)
+const WFPSF_ERROR_RANGE = Int32(-30)
+const WFPSF_ERROR_SIZE = Int32(-40)
+const WFPSF_ERROR_TYPE = Int32(-50)
+const WFPSF_ERROR_NOT_FINITE = Int32(-60)
+const WFPSF_ERROR_UNKNOWN_NAME = Int32(-70)
+const WFPSF_ERROR_OVERLAP = Int32(-80)
+const WFPSF_ERROR_ALREADY_APPLIED = Int32(-90)
+const WFPSF_ERROR_KERNEL = Int32(-100)
+const WFPSF_ERROR_FILE_OPEN = Int32(-200)
+const WFPSF_ERROR_FILE_FORMAT = Int32(-210)
+const WFPSF_ERROR_FILE_WRITE = Int32(-220)
+const WFPSF_ERROR_MOMENTS_NO_PIXELS = Int32(-300)
+const WFPSF_ERROR_MOMENTS_FLUX = Int32(-310)
+const WFPSF_ERROR_MOMENTS_UNRESOLVED = Int32(-320)
+const WFPSF_ERROR_MOMENTS_FILLS_IMAGE = Int32(-330)
+const WFPSF_ERROR_MOMENTS_OUTSIDE = Int32(-340)
+const WFPSF_ERROR_MOMENTS_STALLED = Int32(-350)
+const WFPSF_ERROR_SIZE_NOT_REACHED = Int32(-400)
+const WFPSF_ERROR_NO_MEMORY = Int32(-900)
+const WFPSF_ERROR_INTERNAL = Int32(-910)
+const WFPSF_ERROR_ABI = Int32(-920)
+
+const wfpsf_status_name_pointer = Ref(C_NULL)
+function wfpsf_status_name(status)
+    return ccall(wfpsf_status_name_pointer[], Cstring, (Int32,),
+        status)
+end
+
+const wfpsf_status_string_pointer = Ref(C_NULL)
+function wfpsf_status_string(status)
+    return ccall(wfpsf_status_string_pointer[], Cstring, (Int32,),
+        status)
+end
+
+const wfpsf_last_error_pointer = Ref(C_NULL)
+function wfpsf_last_error(buffer, length)
+    return ccall(wfpsf_last_error_pointer[], Int64, (Ptr{UInt8}, Int64),
+        buffer, length)
+end
+
+# options.h
+const WFPSF_OPTION_EPS = Int32(100)
+const WFPSF_OPTION_STRUTS = Int32(110)
+const WFPSF_OPTION_PSF_RADIUS = Int32(120)
+const WFPSF_OPTION_PISTON_TILT = Int32(130)
+const WFPSF_OPTION_FORCE = Int32(200)
+const WFPSF_OPTION_IPC_FILL = Int32(210)
+const WFPSF_OPTION_KERNEL_NEGATIVE = Int32(220)
+const WFPSF_OPTION_KERNEL_NORMALISE = Int32(230)
+const WFPSF_OPTION_MOMENTS_TOLERANCE = Int32(300)
+const WFPSF_OPTION_MOMENTS_MAX_PASSES = Int32(310)
+const WFPSF_OPTION_MOMENTS_GUESS_X = Int32(320)
+const WFPSF_OPTION_MOMENTS_GUESS_Y = Int32(330)
+const WFPSF_OPTION_MOMENTS_GUESS_SIGMA = Int32(340)
+const WFPSF_OPTION_SIZE_TOTAL_FLUX = Int32(400)
+const WFPSF_OPTION_SIZE_BANDWIDTH = Int32(410)
+const WFPSF_OPTION_FITS_OVERWRITE = Int32(500)
+const WFPSF_OPTION_REAL = Int32(1)
+const WFPSF_OPTION_INTEGER = Int32(2)
+
+const wfpsf_options_create_pointer = Ref(C_NULL)
+function wfpsf_options_create(out)
+    return ccall(wfpsf_options_create_pointer[], Int32, (Ptr{Ptr{Cvoid}},),
+        out)
+end
+
+const wfpsf_options_destroy_pointer = Ref(C_NULL)
+function wfpsf_options_destroy(options)
+    return ccall(wfpsf_options_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
+        options)
+end
+
+const wfpsf_options_set_real_pointer = Ref(C_NULL)
+function wfpsf_options_set_real(options, key, value)
+    return ccall(wfpsf_options_set_real_pointer[], Int32, (Ptr{Cvoid}, Int32, Float64),
+        options, key, value)
+end
+
+const wfpsf_options_set_integer_pointer = Ref(C_NULL)
+function wfpsf_options_set_integer(options, key, value)
+    return ccall(wfpsf_options_set_integer_pointer[], Int32, (Ptr{Cvoid}, Int32, Int64),
+        options, key, value)
+end
+
+const wfpsf_options_get_pointer = Ref(C_NULL)
+function wfpsf_options_get(options, key, value)
+    return ccall(wfpsf_options_get_pointer[], Int32, (Ptr{Cvoid}, Int32, Ptr{Float64}),
+        options, key, value)
+end
+
+const wfpsf_options_reset_pointer = Ref(C_NULL)
+function wfpsf_options_reset(options, key)
+    return ccall(wfpsf_options_reset_pointer[], Int32, (Ptr{Cvoid}, Int32),
+        options, key)
+end
+
+const wfpsf_options_set_zernikes_pointer = Ref(C_NULL)
+function wfpsf_options_set_zernikes(options, count, coefficients)
+    return ccall(wfpsf_options_set_zernikes_pointer[], Int32, (Ptr{Cvoid}, Int64, Ptr{Float64}),
+        options, count, coefficients)
+end
+
+const wfpsf_option_describe_pointer = Ref(C_NULL)
+function wfpsf_option_describe(key, name, text, kind, standard, smallest, largest)
+    return ccall(wfpsf_option_describe_pointer[], Int32, (Int32, Ptr{Cstring}, Ptr{Cstring},
+        Ptr{Int32}, Ptr{Float64}, Ptr{Float64}, Ptr{Float64}),
+        key, name, text, kind, standard, smallest, largest)
+end
+
+# image.h
+const WFPSF_FLOAT32 = Int32(32)
+const WFPSF_FLOAT64 = Int32(64)
+const WFPSF_EFFECT_PIXEL_RESPONSE = Int32(1)
+const WFPSF_EFFECT_IPC = Int32(2)
+const WFPSF_EFFECT_IPC_CORRECTION = Int32(4)
+const WFPSF_DITHER_DETECTOR = Int32(1)
+const WFPSF_DITHER_OBJECT = Int32(2)
+
+const wfpsf_image_create_pointer = Ref(C_NULL)
+function wfpsf_image_create(pixel_type, nx, ny, oversampling, out)
+    return ccall(wfpsf_image_create_pointer[], Int32, (Int32, Int64, Int64, Int64, Ptr{Ptr{Cvoid}}),
+        pixel_type, nx, ny, oversampling, out)
+end
+
+const wfpsf_image_wrap_pointer = Ref(C_NULL)
+function wfpsf_image_wrap(pixel_type, data, nx, ny, stride_x, stride_y, oversampling, out)
+    return ccall(wfpsf_image_wrap_pointer[], Int32, (Int32, Ptr{Cvoid}, Int64, Int64, Int64, Int64,
+        Int64, Ptr{Ptr{Cvoid}}),
+        pixel_type, data, nx, ny, stride_x, stride_y, oversampling, out)
+end
+
+const wfpsf_image_destroy_pointer = Ref(C_NULL)
+function wfpsf_image_destroy(image)
+    return ccall(wfpsf_image_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
+        image)
+end
+
+const wfpsf_image_shape_pointer = Ref(C_NULL)
+function wfpsf_image_shape(image, pixel_type, nx, ny)
+    return ccall(wfpsf_image_shape_pointer[], Int32, (Ptr{Cvoid}, Ptr{Int32}, Ptr{Int64},
+        Ptr{Int64}),
+        image, pixel_type, nx, ny)
+end
+
+const wfpsf_image_record_pointer = Ref(C_NULL)
+function wfpsf_image_record(image, oversampling, pixel_scale_arcsec, applied)
+    return ccall(wfpsf_image_record_pointer[], Int32, (Ptr{Cvoid}, Ptr{Int64}, Ptr{Float64},
+        Ptr{Int32}),
+        image, oversampling, pixel_scale_arcsec, applied)
+end
+
+const wfpsf_image_set_record_pointer = Ref(C_NULL)
+function wfpsf_image_set_record(image, oversampling, pixel_scale_arcsec, applied)
+    return ccall(wfpsf_image_set_record_pointer[], Int32, (Ptr{Cvoid}, Int64, Float64, Int32),
+        image, oversampling, pixel_scale_arcsec, applied)
+end
+
+const wfpsf_image_copy_pointer = Ref(C_NULL)
+function wfpsf_image_copy(from, to)
+    return ccall(wfpsf_image_copy_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}),
+        from, to)
+end
+
+const wfpsf_image_read_fits_pointer = Ref(C_NULL)
+function wfpsf_image_read_fits(path, hdu, pixel_type, out)
+    return ccall(wfpsf_image_read_fits_pointer[], Int32, (Cstring, Cstring, Int32, Ptr{Ptr{Cvoid}}),
+        path, hdu, pixel_type, out)
+end
+
+const wfpsf_image_write_fits_pointer = Ref(C_NULL)
+function wfpsf_image_write_fits(image, path, options)
+    return ccall(wfpsf_image_write_fits_pointer[], Int32, (Ptr{Cvoid}, Cstring, Ptr{Cvoid}),
+        image, path, options)
+end
+
+const wfpsf_image_interleave_pointer = Ref(C_NULL)
+function wfpsf_image_interleave(n_x, n_y, images, dx, dy, convention, out)
+    return ccall(wfpsf_image_interleave_pointer[], Int32, (Int64, Int64, Ptr{Ptr{Cvoid}},
+        Ptr{Float64}, Ptr{Float64}, Int32, Ptr{Cvoid}),
+        n_x, n_y, images, dx, dy, convention, out)
+end
+
+const wfpsf_image_deinterleave_pointer = Ref(C_NULL)
+function wfpsf_image_deinterleave(image, n_x, n_y, dx, dy, convention, out)
+    return ccall(wfpsf_image_deinterleave_pointer[], Int32, (Ptr{Cvoid}, Int64, Int64, Ptr{Float64},
+        Ptr{Float64}, Int32, Ptr{Ptr{Cvoid}}),
+        image, n_x, n_y, dx, dy, convention, out)
+end
+
+# instrument.h
+const WFPSF_BAND_TABULATED = Int32(1)
+const WFPSF_BAND_PAPER = Int32(2)
+
+const wfpsf_instrument_create_pointer = Ref(C_NULL)
+function wfpsf_instrument_create(name, out)
+    return ccall(wfpsf_instrument_create_pointer[], Int32, (Cstring, Ptr{Ptr{Cvoid}}),
+        name, out)
+end
+
+const wfpsf_instrument_destroy_pointer = Ref(C_NULL)
+function wfpsf_instrument_destroy(instrument)
+    return ccall(wfpsf_instrument_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
+        instrument)
+end
+
+const wfpsf_instrument_constant_pointer = Ref(C_NULL)
+function wfpsf_instrument_constant(instrument, name, value, unit)
+    return ccall(wfpsf_instrument_constant_pointer[], Int32, (Ptr{Cvoid}, Cstring, Ptr{Float64},
+        Ptr{Cstring}),
+        instrument, name, value, unit)
+end
+
+const wfpsf_instrument_constant_name_pointer = Ref(C_NULL)
+function wfpsf_instrument_constant_name(instrument, index)
+    return ccall(wfpsf_instrument_constant_name_pointer[], Cstring, (Ptr{Cvoid}, Int64),
+        instrument, index)
+end
+
+const wfpsf_instrument_band_name_pointer = Ref(C_NULL)
+function wfpsf_instrument_band_name(instrument, index)
+    return ccall(wfpsf_instrument_band_name_pointer[], Cstring, (Ptr{Cvoid}, Int64),
+        instrument, index)
+end
+
+const wfpsf_instrument_band_pointer = Ref(C_NULL)
+function wfpsf_instrument_band(instrument, band, rule, blue_nm, red_nm, effective_nm)
+    return ccall(wfpsf_instrument_band_pointer[], Int32, (Ptr{Cvoid}, Cstring, Int32, Ptr{Float64},
+        Ptr{Float64}, Ptr{Float64}),
+        instrument, band, rule, blue_nm, red_nm, effective_nm)
+end
+
+const wfpsf_instrument_throughput_pointer = Ref(C_NULL)
+function wfpsf_instrument_throughput(instrument, band, count, wavelength_nm, throughput)
+    return ccall(wfpsf_instrument_throughput_pointer[], Int32, (Ptr{Cvoid}, Cstring, Int64,
+        Ptr{Float64}, Ptr{Float64}),
+        instrument, band, count, wavelength_nm, throughput)
+end
+
+const wfpsf_instrument_zernikes_pointer = Ref(C_NULL)
+function wfpsf_instrument_zernikes(instrument, sca, capacity, coefficients, count)
+    return ccall(wfpsf_instrument_zernikes_pointer[], Int32, (Ptr{Cvoid}, Int32, Int64,
+        Ptr{Float64}, Ptr{Int64}),
+        instrument, sca, capacity, coefficients, count)
+end
+
+# psf.h
+const WFPSF_PSF_WAVELENGTH_NM = Int32(10)
+const WFPSF_PSF_PIXEL_SCALE_ARCSEC = Int32(20)
+const WFPSF_PSF_ERROR_ESTIMATE = Int32(30)
+const WFPSF_PSF_MODEL_ERROR = Int32(40)
+const WFPSF_PSF_PEAK = Int32(50)
+const WFPSF_PSF_NODES = Int32(60)
+const WFPSF_PSF_GRID_SIZE = Int32(70)
+const WFPSF_PSF_GRID_STEP_ARCSEC = Int32(80)
+const WFPSF_PSF_RADIUS = Int32(90)
+const WFPSF_PSF_LIT_AREA_M2 = Int32(100)
+
+const wfpsf_psf_create_pointer = Ref(C_NULL)
+function wfpsf_psf_create(instrument, sca, wavelength_nm, options, out)
+    return ccall(wfpsf_psf_create_pointer[], Int32, (Ptr{Cvoid}, Int32, Float64, Ptr{Cvoid},
+        Ptr{Ptr{Cvoid}}),
+        instrument, sca, wavelength_nm, options, out)
+end
+
+const wfpsf_psf_create_from_mask_pointer = Ref(C_NULL)
+function wfpsf_psf_create_from_mask(instrument, mask, mask_scale_m, axis_x, axis_y, sca,
+    wavelength_nm, options, out)
+    return ccall(wfpsf_psf_create_from_mask_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Float64,
+        Float64, Float64, Int32, Float64, Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        instrument, mask, mask_scale_m, axis_x, axis_y, sca, wavelength_nm, options, out)
+end
+
+const wfpsf_psf_destroy_pointer = Ref(C_NULL)
+function wfpsf_psf_destroy(psf)
+    return ccall(wfpsf_psf_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
+        psf)
+end
+
+const wfpsf_psf_draw_pointer = Ref(C_NULL)
+function wfpsf_psf_draw(psf, x, y, flux, image)
+    return ccall(wfpsf_psf_draw_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64, Float64,
+        Ptr{Cvoid}),
+        psf, x, y, flux, image)
+end
+
+const wfpsf_psf_get_pointer = Ref(C_NULL)
+function wfpsf_psf_get(psf, key, value)
+    return ccall(wfpsf_psf_get_pointer[], Int32, (Ptr{Cvoid}, Int32, Ptr{Float64}),
+        psf, key, value)
+end
+
+# ipc.h
+const WFPSF_EDGE_ZERO = Int32(0)
+const WFPSF_EDGE_REPLICATE = Int32(1)
+const WFPSF_EDGE_WRAP = Int32(2)
+const WFPSF_EDGE_CROP = Int32(3)
+const WFPSF_EDGE_FILL = Int32(4)
+const WFPSF_EDGE_VALID = Int32(5)
+
+const wfpsf_ipc_kernel_create_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_create(alpha, alpha_prime, alpha_plus, options, out)
+    return ccall(wfpsf_ipc_kernel_create_pointer[], Int32, (Float64, Float64, Float64, Ptr{Cvoid},
+        Ptr{Ptr{Cvoid}}),
+        alpha, alpha_prime, alpha_plus, options, out)
+end
+
+const wfpsf_ipc_kernel_create_taps_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_create_taps(nx, ny, taps, options, out)
+    return ccall(wfpsf_ipc_kernel_create_taps_pointer[], Int32, (Int64, Int64, Ptr{Float64},
+        Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        nx, ny, taps, options, out)
+end
+
+const wfpsf_ipc_kernel_create_wfc3_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_create_wfc3(out)
+    return ccall(wfpsf_ipc_kernel_create_wfc3_pointer[], Int32, (Ptr{Ptr{Cvoid}},),
+        out)
+end
+
+const wfpsf_ipc_kernel_create_default_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_create_default(instrument, out)
+    return ccall(wfpsf_ipc_kernel_create_default_pointer[], Int32, (Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        instrument, out)
+end
+
+const wfpsf_ipc_kernel_create_correction_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_create_correction(kernel, out)
+    return ccall(wfpsf_ipc_kernel_create_correction_pointer[], Int32, (Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        kernel, out)
+end
+
+const wfpsf_ipc_kernel_create_flipped_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_create_flipped(kernel, out)
+    return ccall(wfpsf_ipc_kernel_create_flipped_pointer[], Int32, (Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        kernel, out)
+end
+
+const wfpsf_ipc_kernel_destroy_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_destroy(kernel)
+    return ccall(wfpsf_ipc_kernel_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
+        kernel)
+end
+
+const wfpsf_ipc_kernel_taps_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_taps(kernel, capacity, taps, nx, ny)
+    return ccall(wfpsf_ipc_kernel_taps_pointer[], Int32, (Ptr{Cvoid}, Int64, Ptr{Float64},
+        Ptr{Int64}, Ptr{Int64}),
+        kernel, capacity, taps, nx, ny)
+end
+
+const wfpsf_ipc_apply_pointer = Ref(C_NULL)
+function wfpsf_ipc_apply(kernel, input, edge, options, out)
+    return ccall(wfpsf_ipc_apply_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int32, Ptr{Cvoid},
+        Ptr{Cvoid}),
+        kernel, input, edge, options, out)
+end
+
+# moments.h
+const WFPSF_MOMENTS_CENTROID_X = Int32(10)
+const WFPSF_MOMENTS_CENTROID_Y = Int32(20)
+const WFPSF_MOMENTS_MXX = Int32(30)
+const WFPSF_MOMENTS_MXY = Int32(40)
+const WFPSF_MOMENTS_MYY = Int32(50)
+const WFPSF_MOMENTS_SIGMA = Int32(60)
+const WFPSF_MOMENTS_SIGMA_TRACE = Int32(70)
+const WFPSF_MOMENTS_E1 = Int32(80)
+const WFPSF_MOMENTS_E2 = Int32(90)
+const WFPSF_MOMENTS_E = Int32(100)
+const WFPSF_MOMENTS_BETA = Int32(110)
+const WFPSF_MOMENTS_FLUX = Int32(120)
+const WFPSF_MOMENTS_RHO4 = Int32(130)
+const WFPSF_MOMENTS_PASSES = Int32(140)
+const WFPSF_MOMENTS_ERROR_ESTIMATE = Int32(150)
+const WFPSF_MOMENTS_RESIDUAL = Int32(160)
+const WFPSF_MOMENTS_CURVATURE = Int32(170)
+const WFPSF_MOMENTS_EDGE_FRACTION = Int32(180)
+
+const wfpsf_moments_measure_pointer = Ref(C_NULL)
+function wfpsf_moments_measure(image, options, out)
+    return ccall(wfpsf_moments_measure_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        image, options, out)
+end
+
+const wfpsf_moments_measure_unweighted_pointer = Ref(C_NULL)
+function wfpsf_moments_measure_unweighted(image, x, y, out)
+    return ccall(wfpsf_moments_measure_unweighted_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64,
+        Ptr{Ptr{Cvoid}}),
+        image, x, y, out)
+end
+
+const wfpsf_moments_destroy_pointer = Ref(C_NULL)
+function wfpsf_moments_destroy(moments)
+    return ccall(wfpsf_moments_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
+        moments)
+end
+
+const wfpsf_moments_status_pointer = Ref(C_NULL)
+function wfpsf_moments_status(moments)
+    return ccall(wfpsf_moments_status_pointer[], Int32, (Ptr{Cvoid},),
+        moments)
+end
+
+const wfpsf_moments_get_pointer = Ref(C_NULL)
+function wfpsf_moments_get(moments, key, value)
+    return ccall(wfpsf_moments_get_pointer[], Int32, (Ptr{Cvoid}, Int32, Ptr{Float64}),
+        moments, key, value)
+end
+
+# size.h
+const WFPSF_SIZE_BANDLIMITED = Int32(1)
+const WFPSF_SIZE_PIXEL_SUM = Int32(2)
+const WFPSF_SIZE_PIXEL_INTERPOLATED = Int32(3)
+
+const wfpsf_size_encircled_energy_pointer = Ref(C_NULL)
+function wfpsf_size_encircled_energy(image, x, y, radius, options, fraction, error)
+    return ccall(wfpsf_size_encircled_energy_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64,
+        Float64, Ptr{Cvoid}, Ptr{Float64}, Ptr{Float64}),
+        image, x, y, radius, options, fraction, error)
+end
+
+const wfpsf_size_ee_radius_pointer = Ref(C_NULL)
+function wfpsf_size_ee_radius(image, x, y, fraction, method, options, radius, error)
+    return ccall(wfpsf_size_ee_radius_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64, Float64,
+        Int32, Ptr{Cvoid}, Ptr{Float64}, Ptr{Float64}),
+        image, x, y, fraction, method, options, radius, error)
+end
+
+const wfpsf_size_fwhm_pointer = Ref(C_NULL)
+function wfpsf_size_fwhm(image, x, y, fwhm)
+    return ccall(wfpsf_size_fwhm_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64, Ptr{Float64}),
+        image, x, y, fwhm)
+end
+
+const pointers = [
+    :wfpsf_version => wfpsf_version_pointer,
+    :wfpsf_abi_number => wfpsf_abi_number_pointer,
+    :wfpsf_abi_check => wfpsf_abi_check_pointer,
+    :wfpsf_status_name => wfpsf_status_name_pointer,
+    :wfpsf_status_string => wfpsf_status_string_pointer,
+    :wfpsf_last_error => wfpsf_last_error_pointer,
+    :wfpsf_options_create => wfpsf_options_create_pointer,
+    :wfpsf_options_destroy => wfpsf_options_destroy_pointer,
+    :wfpsf_options_set_real => wfpsf_options_set_real_pointer,
+    :wfpsf_options_set_integer => wfpsf_options_set_integer_pointer,
+    :wfpsf_options_get => wfpsf_options_get_pointer,
+    :wfpsf_options_reset => wfpsf_options_reset_pointer,
+    :wfpsf_options_set_zernikes => wfpsf_options_set_zernikes_pointer,
+    :wfpsf_option_describe => wfpsf_option_describe_pointer,
+    :wfpsf_image_create => wfpsf_image_create_pointer,
+    :wfpsf_image_wrap => wfpsf_image_wrap_pointer,
+    :wfpsf_image_destroy => wfpsf_image_destroy_pointer,
+    :wfpsf_image_shape => wfpsf_image_shape_pointer,
+    :wfpsf_image_record => wfpsf_image_record_pointer,
+    :wfpsf_image_set_record => wfpsf_image_set_record_pointer,
+    :wfpsf_image_copy => wfpsf_image_copy_pointer,
+    :wfpsf_image_read_fits => wfpsf_image_read_fits_pointer,
+    :wfpsf_image_write_fits => wfpsf_image_write_fits_pointer,
+    :wfpsf_image_interleave => wfpsf_image_interleave_pointer,
+    :wfpsf_image_deinterleave => wfpsf_image_deinterleave_pointer,
+    :wfpsf_instrument_create => wfpsf_instrument_create_pointer,
+    :wfpsf_instrument_destroy => wfpsf_instrument_destroy_pointer,
+    :wfpsf_instrument_constant => wfpsf_instrument_constant_pointer,
+    :wfpsf_instrument_constant_name => wfpsf_instrument_constant_name_pointer,
+    :wfpsf_instrument_band_name => wfpsf_instrument_band_name_pointer,
+    :wfpsf_instrument_band => wfpsf_instrument_band_pointer,
+    :wfpsf_instrument_throughput => wfpsf_instrument_throughput_pointer,
+    :wfpsf_instrument_zernikes => wfpsf_instrument_zernikes_pointer,
+    :wfpsf_psf_create => wfpsf_psf_create_pointer,
+    :wfpsf_psf_create_from_mask => wfpsf_psf_create_from_mask_pointer,
+    :wfpsf_psf_destroy => wfpsf_psf_destroy_pointer,
+    :wfpsf_psf_draw => wfpsf_psf_draw_pointer,
+    :wfpsf_psf_get => wfpsf_psf_get_pointer,
+    :wfpsf_ipc_kernel_create => wfpsf_ipc_kernel_create_pointer,
+    :wfpsf_ipc_kernel_create_taps => wfpsf_ipc_kernel_create_taps_pointer,
+    :wfpsf_ipc_kernel_create_wfc3 => wfpsf_ipc_kernel_create_wfc3_pointer,
+    :wfpsf_ipc_kernel_create_default => wfpsf_ipc_kernel_create_default_pointer,
+    :wfpsf_ipc_kernel_create_correction => wfpsf_ipc_kernel_create_correction_pointer,
+    :wfpsf_ipc_kernel_create_flipped => wfpsf_ipc_kernel_create_flipped_pointer,
+    :wfpsf_ipc_kernel_destroy => wfpsf_ipc_kernel_destroy_pointer,
+    :wfpsf_ipc_kernel_taps => wfpsf_ipc_kernel_taps_pointer,
+    :wfpsf_ipc_apply => wfpsf_ipc_apply_pointer,
+    :wfpsf_moments_measure => wfpsf_moments_measure_pointer,
+    :wfpsf_moments_measure_unweighted => wfpsf_moments_measure_unweighted_pointer,
+    :wfpsf_moments_destroy => wfpsf_moments_destroy_pointer,
+    :wfpsf_moments_status => wfpsf_moments_status_pointer,
+    :wfpsf_moments_get => wfpsf_moments_get_pointer,
+    :wfpsf_size_encircled_energy => wfpsf_size_encircled_energy_pointer,
+    :wfpsf_size_ee_radius => wfpsf_size_ee_radius_pointer,
+    :wfpsf_size_fwhm => wfpsf_size_fwhm_pointer,
+]
+
+"""
+    load(path)
+
+Opens the shared library and finds its functions. Call it when the program starts, as `__init__`
+does: pointers do not outlive a process.
+"""
+function load(path::AbstractString)
+    # Without Julia's default RTLD_DEEPBIND: it would give the library another unwinder than the one
+    # that libstdc++ has in this process, and the first C++ exception would abort.
+    library = Libdl.dlopen(path, Libdl.RTLD_LAZY | Libdl.RTLD_LOCAL)
+    for (name, pointer) in pointers
+        pointer[] = Libdl.dlsym(library, name)
+    end
+    return nothing
+end
+
+end

@@ -1,0 +1,25 @@
+# Runs the Fortran main job into a fresh folder and looks at what it leaves; then into a folder that
+# cannot be made.
+file(REMOVE_RECURSE ${OUT})
+get_filename_component(parent ${OUT} DIRECTORY)
+file(MAKE_DIRECTORY ${parent})
+execute_process(COMMAND ${PROGRAM} ${OUT} RESULT_VARIABLE code ERROR_VARIABLE errors)
+if(errors OR NOT code EQUAL 0)
+  message(FATAL_ERROR "exit code ${code}, on stderr: \"${errors}\"")
+endif()
+foreach(band Z087 Y106 J129 W149 H158 F184)
+  if(NOT EXISTS ${OUT}/psf_${band}.fits)
+    message(FATAL_ERROR "psf_${band}.fits was not written")
+  endif()
+endforeach()
+file(STRINGS ${OUT}/table_sizes.csv lines)
+list(LENGTH lines count)
+if(NOT count EQUAL 73)
+  message(FATAL_ERROR "table_sizes.csv has ${count} lines: must be 73")
+endif()
+
+execute_process(COMMAND ${PROGRAM} ${OUT}/psf_J129.fits/out
+  RESULT_VARIABLE code ERROR_VARIABLE errors OUTPUT_QUIET)
+if(NOT code EQUAL 1 OR NOT errors MATCHES "psf_J129.fits/out")
+  message(FATAL_ERROR "a folder that cannot be made: exit code ${code}, \"${errors}\"")
+endif()

@@ -1,0 +1,249 @@
+! SPDX-License-Identifier: GPL-3.0-or-later
+! Images on Fortran arrays: both types, any strides, no copy; pixels out of images; files; the other
+! arrays that cross the border.
+program test_arrays
+    use, intrinsic :: iso_fortran_env, only: real32, real64
+    use wfpsf
+    implicit none
+    type :: cell
+        real(real64) :: weight, flux
+    end type cell
+    type :: odd_cell
+        sequence
+        real(real32) :: weight(2)
+        integer :: flag
+    end type odd_cell
+
+    call wraps_float64()
+    call wraps_sections()
+    call wraps_float32()
+    call wraps_nothing()
+    call reads_and_writes()
+    call interleaves()
+    call passes_taps()
+    call passes_instrument_arrays()
+
+contains
+
+    subroutine expect(truth, what)
+        logical, intent(in) :: truth
+        character(len=*), intent(in) :: what
+
+        if (.not. truth) error stop "failed: " // what
+    end subroutine expect
+
+    ! Distinct numbers: 100 x + y at pixel (x, y), which float32 holds exactly.
+    function numbered(nx, ny) result(array)
+        integer, intent(in) :: nx, ny
+        real(real64) :: array(nx, ny)
+        integer :: x, y
+
+        array = reshape([((100.0_real64 * x + y, x = 1, nx), y = 1, ny)], [nx, ny])
+    end function numbered
+
+    ! Convolution with a kernel that moves everything by one pixel in x shows what is where.
+    subroutine shift_in_x(from, to)
+        type(wfpsf_image), intent(in) :: from
+        type(wfpsf_image), intent(inout) :: to
+        type(wfpsf_ipc_kernel) :: kernel
+        real(real64) :: taps(3, 1)
+
+        taps(:, 1) = [0.0_real64, 0.0_real64, 1.0_real64]
+        call kernel%create_taps(taps)
+        call kernel%apply(from, wfpsf_edge_zero, to)
+    end subroutine shift_in_x
+
+    subroutine wraps_float64()
+        type(wfpsf_image) :: from, to
+        real(real64), target :: a(5, 3), b(5, 3)
+        integer :: pixel_type, nx, ny
+
+        a = numbered(5, 3)
+        b = -1
+        call from%wrap(a, 1)
+        call to%wrap(b, 1)
+        call from%get_shape(pixel_type, nx, ny)
+        call expect(all([pixel_type, nx, ny] == [64, 5, 3]), "shape")
+        call shift_in_x(from, to)
+        call expect(all(b(2:, :) == a(:4, :)) .and. all(b(1, :) == 0), "float64: (nx, ny)")
+    end subroutine wraps_float64
+
+    subroutine wraps_sections()
+        type(wfpsf_image) :: from, to
+        real(real64), target :: a(12, 9), b(7, 6)
+        real(real64) :: expected(5, 3)
+        real(real64), allocatable :: seen(:, :)
+        type(cell), target :: cells(4, 3)
+        type(odd_cell), target :: odd_cells(4, 3)
+        real(real64), pointer :: flux(:, :)
+        real(real32), pointer :: weight(:, :)
+        integer :: stat
+
+        a = numbered(12, 9)
+        expected = a(11:2:-2, 8:1:-3)
+        call from%wrap(a(11:2:-2, 8:1:-3), 1)
+        call from%get_pixels(seen)
+        call expect(all(shape(seen) == shape(expected)), "shape of a section")
+        call expect(all(seen == expected), "a section backwards")
+
+        b = -1
+        call to%wrap(b(7:3:-1, 1:6:2), 1)
+        call to%copy_from(from)
+        call expect(all(b(7:3:-1, 1:6:2) == expected), "written through a section")
+        call expect(all(b(:2, :) == -1) .and. all(b(:, 2:6:2) == -1), "and nowhere else")
+
+        call from%wrap(a(:, 4:4), 1)
+        call from%get_pixels(seen)
+        call expect(all(seen == a(:, 4:4)), "one row")
+        call from%wrap(a(3:3, ::2), 1)
+        call from%get_pixels(seen)
+        call expect(all(seen == a(3:3, ::2)), "one column")
+
+        cells%weight = 0
+        cells%flux = numbered(4, 3)
+        flux => cells%flux
+        call from%wrap(flux, 1)
+        call from%get_pixels(seen)
+        call expect(all(seen == numbered(4, 3)), "a component of a derived type")
+
+        odd_cells%weight(1) = 0
+        odd_cells%weight(2) = real(numbered(4, 3), real32)
+        odd_cells%flag = 0
+        weight => odd_cells%weight(2)
+        call from%wrap(weight, 1, stat)
+        call expect(stat == wfpsf_ok, "a component of a type of three words")
+        call from%get_pixels(seen)
+        call expect(all(seen == numbered(4, 3)), "its pixels")
+    end subroutine wraps_sections
+
+    subroutine wraps_float32()
+        type(wfpsf_image) :: from, to
+        real(real32), target :: a(4, 6), b(4, 6)
+        real(real64), allocatable :: wide(:, :)
+        real(real32), allocatable :: narrow(:, :)
+        integer :: pixel_type
+
+        a = real(numbered(4, 6), real32)
+        b = -1
+        call from%wrap(a, 1)
+        call to%wrap(b, 1)
+        call from%get_shape(pixel_type)
+        call expect(pixel_type == wfpsf_float32, "pixel type")
+        call shift_in_x(from, to)
+        call expect(all(b(2:, :) == a(:3, :)), "float32")
+        call from%get_pixels(wide)
+        call from%get_pixels(narrow)
+        call expect(all(wide == numbered(4, 6)) .and. all(narrow == a), "pixels of either type")
+    end subroutine wraps_float32
+
+    subroutine wraps_nothing()
+        type(wfpsf_image) :: image
+        real(real64), target :: a(0, 3), b(3, 0)
+        real(real64), allocatable :: seen(:, :)
+        integer :: nx, ny
+
+        call image%wrap(a, 1)
+        call image%get_shape(nx=nx, ny=ny)
+        call expect(nx == 0 .and. ny == 3, "an empty image")
+        call image%wrap(b, 1)
+        call image%get_pixels(seen)
+        call expect(all(shape(seen) == [3, 0]), "its pixels")
+    end subroutine wraps_nothing
+
+    subroutine reads_and_writes()
+        character(len=*), parameter :: path = "test_arrays.fits   "
+        type(wfpsf_image) :: image, again
+        type(wfpsf_options) :: options
+        real(real64), target :: a(7, 4)
+        real(real64), allocatable :: seen(:, :)
+        real(real64) :: scale
+        integer :: oversampling, applied
+
+        a = numbered(7, 4)
+        call image%wrap(a, 3)
+        call image%set_record(3, 0.11_real64, wfpsf_effect_ipc)
+        call options%create()
+        call options%set(wfpsf_option_fits_overwrite, 1)
+        call image%write_fits(path, options)
+        call again%read_fits(path)
+        call again%get_record(oversampling, scale, applied)
+        call expect(oversampling == 3 .and. applied == wfpsf_effect_ipc, "record of a file")
+        call expect(abs(scale - 0.11_real64) < 1e-15_real64, "scale of a file")
+        call again%get_pixels(seen)
+        call expect(all(seen == a), "pixels of a file")
+        call again%read_fits(path, hdu="0", pixel_type=wfpsf_float32)
+        call again%get_pixels(seen)
+        call expect(all(seen == a), "hdu 0 as float32")
+    end subroutine reads_and_writes
+
+    subroutine interleaves()
+        type(wfpsf_image) :: dithers(2), fine, back(2)
+        real(real64), target :: a(3, 2, 2), b(6, 2), c(3, 2, 2)
+        real(real64) :: dx(2), dy(2)
+        integer :: i, stat
+
+        a(:, :, 1) = numbered(3, 2)
+        a(:, :, 2) = numbered(3, 2) + 0.5_real64
+        do i = 1, 2
+            call dithers(i)%wrap(a(:, :, i), 1)
+            call back(i)%wrap(c(:, :, i), 1)
+        end do
+        call fine%wrap(b, 1)
+        dx = [0.0_real64, 0.5_real64]
+        dy = 0
+        call fine%interleave(dithers, 2, 1, dx, dy, wfpsf_dither_detector)
+        call expect(all(b(1::2, :) == a(:, :, 1)) .and. all(b(2::2, :) == a(:, :, 2)), "interleave")
+        call fine%deinterleave(back, 2, 1, dx, dy, wfpsf_dither_detector)
+        call expect(all(c == a), "deinterleave")
+        call fine%interleave(dithers(:1), 2, 1, dx, dy, wfpsf_dither_detector, stat)
+        call expect(stat == wfpsf_error_size, "too few images")
+    end subroutine interleaves
+
+    subroutine passes_taps()
+        type(wfpsf_ipc_kernel) :: kernel, flipped
+        real(real64) :: taps(3, 3)
+        real(real64), allocatable :: seen(:, :)
+
+        taps = reshape([0.01, 0.02, 0.03, 0.04, 0.7, 0.05, 0.06, 0.07, 0.02], [3, 3])
+        taps = taps / sum(taps)
+        call kernel%create_taps(taps)
+        call kernel%get_taps(seen)
+        call expect(maxval(abs(seen - taps)) < 1e-15_real64, "taps")
+        call flipped%create_flipped(kernel)
+        call flipped%get_taps(seen)
+        call expect(maxval(abs(seen - taps(3:1:-1, 3:1:-1))) < 1e-15_real64, "flipped")
+        call kernel%create(0.02_real64, 0.002_real64, 0.001_real64)
+        call kernel%get_taps(seen)
+        call expect(abs(seen(1, 2) - 0.021_real64) < 1e-15_real64 &
+            .and. abs(seen(2, 1) - 0.019_real64) < 1e-15_real64, "alpha_plus is more along x")
+    end subroutine passes_taps
+
+    subroutine passes_instrument_arrays()
+        type(wfpsf_instrument) :: instrument
+        type(wfpsf_options) :: options
+        real(real64), allocatable :: coefficients(:)
+        real(real64) :: throughput(2), blue, red, effective, diameter
+        character(len=:), allocatable :: unit
+        integer :: stat
+
+        call instrument%create("wfirst-afta-c5")
+        call instrument%constant("diameter", diameter, unit)
+        call expect(abs(diameter - 2.36_real64) < 1e-12_real64 .and. unit == "m", "diameter")
+        call expect(len(instrument%constant_name(1)) > 0, "first constant")
+        call expect(instrument%constant_name(0) == "", "constant 0")
+        call expect(len(instrument%band_name(1)) == 4, "first band")
+        call expect(instrument%band_name(100) == "", "band past the last")
+        call instrument%band("J129", wfpsf_band_paper, effective_nm=effective)
+        call instrument%band("J129", wfpsf_band_tabulated, blue, red)
+        call expect(blue < effective .and. effective < red, "band limits")
+        call instrument%throughput("J129", [effective, red + 1000], throughput)
+        call expect(throughput(1) > 0 .and. throughput(2) == 0, "throughput")
+        call instrument%throughput("J129", [effective], throughput, stat)
+        call expect(stat == wfpsf_error_size, "arrays of two sizes")
+        call instrument%zernikes(7, coefficients)
+        call expect(size(coefficients) > 4 .and. any(coefficients /= 0), "Zernikes")
+        call options%create()
+        call options%set_zernikes(-coefficients)
+    end subroutine passes_instrument_arrays
+
+end program test_arrays

@@ -1,0 +1,165 @@
+! SPDX-License-Identifier: GPL-3.0-or-later
+! The first pixel is (1, 1) wherever a position goes in or comes out.
+program test_positions
+    use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
+    use, intrinsic :: iso_fortran_env, only: real64
+    use wfpsf
+    implicit none
+    real(real64), parameter :: eps = 1e-6_real64
+
+    call of_a_gaussian()
+    call of_options()
+    call of_a_star()
+    call of_a_mask()
+
+contains
+
+    subroutine expect(truth, what)
+        logical, intent(in) :: truth
+        character(len=*), intent(in) :: what
+
+        if (.not. truth) error stop "failed: " // what
+    end subroutine expect
+
+    ! Flux 1 at (x0, y0), counted from (1, 1); sigma = 4 leaves no trace of the sampling.
+    subroutine gaussian(x0, y0, array)
+        real(real64), intent(in) :: x0, y0
+        real(real64), intent(out) :: array(:, :)
+        real(real64), parameter :: sigma = 4
+        integer :: x, y
+
+        do y = 1, size(array, 2)
+            do x = 1, size(array, 1)
+                array(x, y) = exp(-((x - x0)**2 + (y - y0)**2) / (2 * sigma**2)) &
+                    / (2 * acos(-1.0_real64) * sigma**2)
+            end do
+        end do
+    end subroutine gaussian
+
+    subroutine of_a_gaussian()
+        real(real64), parameter :: x0 = 40.25_real64, y0 = 33.5_real64
+        real(real64), target :: array(80, 70)
+        type(wfpsf_image) :: image
+        type(wfpsf_moments) :: moments
+        type(wfpsf_options) :: options
+        real(real64) :: x, y, sigma, radius, error, fraction, fwhm
+
+        call gaussian(x0, y0, array)
+        call image%wrap(array, 1)
+        call options%create()
+        call options%set(wfpsf_option_moments_tolerance, 1e-11_real64)
+        call moments%measure(image, options)
+        call moments%get(wfpsf_moments_centroid_x, x)
+        call moments%get(wfpsf_moments_centroid_y, y)
+        call moments%get(wfpsf_moments_sigma, sigma)
+        call expect(abs(x - x0) < 1e-9_real64 .and. abs(y - y0) < 1e-9_real64, "adaptive centroid")
+        call expect(abs(sigma - 4) < 1e-9_real64, "sigma")
+        call expect(moments%status() == wfpsf_ok, "status of moments")
+
+        call moments%measure_unweighted(image)
+        call moments%get(wfpsf_moments_centroid_x, x)
+        call expect(abs(x - x0) < 1e-9_real64, "unweighted centroid")
+        call moments%measure_unweighted(image, x0 + 1, y0)
+        call moments%get(wfpsf_moments_mxx, sigma)
+        call expect(abs(sigma - 17) < 1e-6_real64, "unweighted moments about a point")
+
+        ! 1 - exp(-r^2 / (2 sigma^2)) = 1/2
+        call image%ee_radius(x0, y0, 0.5_real64, wfpsf_size_bandlimited, radius, error)
+        call expect(abs(radius - 4 * sqrt(2 * log(2.0_real64))) < 1e-8_real64, "radius")
+        call image%encircled_energy(x0, y0, radius, fraction)
+        call expect(abs(fraction - 0.5_real64) < 1e-8_real64, "encircled energy")
+        call image%fwhm(x0, y0, fwhm)
+        call expect(abs(fwhm - 8 * sqrt(2 * log(2.0_real64))) < 0.5_real64, "FWHM")
+    end subroutine of_a_gaussian
+
+    subroutine of_options()
+        real(real64), target :: array(100, 40)
+        real(real64) :: value, second(100, 40)
+        type(wfpsf_image) :: image
+        type(wfpsf_moments) :: moments
+        type(wfpsf_options) :: options
+
+        call options%create()
+        call options%get(wfpsf_option_moments_guess_x, value)
+        call expect(ieee_is_nan(value), "a guess left to the library")
+        call options%set(wfpsf_option_moments_guess_x, 75.0_real64)
+        call options%set(wfpsf_option_moments_guess_y, 20.0_real64)
+        call options%get(wfpsf_option_moments_guess_x, value)
+        call expect(abs(value - 75) < 1e-12_real64, "a guess that was set")
+        call options%set(wfpsf_option_eps, 1e-5_real64)
+        call options%get(wfpsf_option_eps, value)
+        call expect(abs(value - 1e-5_real64) < 1e-20_real64, "an option that is no position")
+        call options%reset(wfpsf_option_eps)
+        call options%get(wfpsf_option_eps, value)
+        call expect(abs(value - 1e-6_real64) < 1e-20_real64, "an option that was reset")
+
+        ! Of two equal objects the guess takes the second.
+        call gaussian(25.0_real64, 20.0_real64, array)
+        call gaussian(75.0_real64, 20.0_real64, second)
+        array = array + second
+        call image%wrap(array, 1)
+        call options%set(wfpsf_option_moments_guess_sigma, 4.0_real64)
+        call moments%measure(image, options)
+        call moments%get(wfpsf_moments_centroid_x, value)
+        call expect(abs(value - 75) < 1e-6_real64, "the guess finds its object")
+    end subroutine of_options
+
+    ! Two odd stamps, the star in the middle of each and a pixel off: the same pixels, moved.
+    subroutine of_a_star()
+        real(real64), target :: middle(33, 33), moved(33, 33)
+        type(wfpsf_instrument) :: instrument
+        type(wfpsf_psf) :: psf
+        type(wfpsf_image) :: image
+        type(wfpsf_options) :: options
+        real(real64) :: peak
+
+        call instrument%create("wfirst-afta-c5")
+        call options%create()
+        call options%set(wfpsf_option_eps, eps)
+        call psf%create(instrument, 7, 1292.0_real64, options)
+        call image%wrap(middle, 1)
+        call psf%draw(17.0_real64, 17.0_real64, 1.0_real64, image)
+        call psf%get(wfpsf_psf_peak, peak)
+        call expect(all(maxloc(middle) == 17), "brightest pixel")
+        call expect(abs(middle(17, 17) - peak) < 0.01_real64 * peak, "its value")
+        call image%wrap(moved, 1)
+        call psf%draw(16.0_real64, 19.0_real64, 1.0_real64, image)
+        call expect(maxval(abs(moved(:32, 3:) - middle(2:, :31))) < 2 * eps * peak, "a star moved")
+    end subroutine of_a_star
+
+    ! A disc about the axis is even: its PSF has its centroid where the star is put.
+    subroutine of_a_mask()
+        integer, parameter :: n = 65
+        real(real64), parameter :: axis = (n + 1) / 2.0_real64
+        real(real64), target :: mask(n, n), stamp(24, 21)
+        real(real64), allocatable :: coefficients(:)
+        type(wfpsf_instrument) :: instrument
+        type(wfpsf_image) :: mask_image, image
+        type(wfpsf_options) :: options
+        type(wfpsf_psf) :: psf
+        integer :: x, y, stat
+        character(len=200) :: line
+
+        do y = 1, n
+            do x = 1, n
+                mask(x, y) = merge(1, 0, (x - axis)**2 + (y - axis)**2 <= 30.0_real64**2)
+            end do
+        end do
+        call mask_image%wrap(mask, 1)
+        call instrument%create("wfirst-afta-c5")
+        call instrument%zernikes(7, coefficients)
+        coefficients(:3) = 0 ! the instrument's piston and tilt are left out by default
+        call options%create()
+        call options%set_zernikes(-coefficients)
+        call options%set(wfpsf_option_eps, eps)
+        call psf%create_from_mask(instrument, mask_image, 2.36_real64 / 61, axis, axis, 7, &
+            1292.0_real64, options, stat, line)
+        if (stat < 0) error stop line
+        call image%wrap(stamp, 1)
+        call psf%draw(12.5_real64, 11.0_real64, 1.0_real64, image)
+        ! Even about the star: the stamp equals itself turned by 180 degrees.
+        call expect(maxval(abs(stamp - stamp(24:1:-1, 21:1:-1))) < 2 * eps * maxval(stamp), &
+            "even PSF")
+    end subroutine of_a_mask
+
+end program test_positions
