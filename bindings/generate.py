@@ -336,6 +336,8 @@ end""".splitlines()
 # ------------------------------------------------------------------------------------------------
 
 def main():
+    if len(sys.argv) > 2 or sys.argv[1:] and sys.argv[1].startswith("-"):
+        sys.exit(__doc__)
     output = Path(sys.argv[1]) if len(sys.argv) > 1 else HERE
     numbers = project_numbers()
     there = {path.name for path in HEADERS.iterdir()} - WITHOUT_NAMES

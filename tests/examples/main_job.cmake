@@ -1,4 +1,4 @@
-# Runs the C main job into a fresh folder and looks at what it leaves; then into a folder that
+# Runs a main job into a fresh folder and looks at what it leaves; then into a folder that
 # cannot be made.
 file(REMOVE_RECURSE ${OUT})
 execute_process(COMMAND ${PROGRAM} ${OUT} RESULT_VARIABLE code ERROR_VARIABLE errors)

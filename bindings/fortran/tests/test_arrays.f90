@@ -3,6 +3,7 @@
 ! arrays that cross the border.
 program test_arrays
     use, intrinsic :: iso_fortran_env, only: real32, real64
+    use expectations, only: expect
     use wfpsf
     implicit none
     type :: cell
@@ -24,13 +25,6 @@ program test_arrays
     call passes_instrument_arrays()
 
 contains
-
-    subroutine expect(truth, what)
-        logical, intent(in) :: truth
-        character(len=*), intent(in) :: what
-
-        if (.not. truth) error stop "failed: " // what
-    end subroutine expect
 
     ! Distinct numbers: 100 x + y at pixel (x, y), which float32 holds exactly.
     function numbered(nx, ny) result(array)

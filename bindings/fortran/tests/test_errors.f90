@@ -2,6 +2,7 @@
 ! stat and errmsg, objects used too early or twice, objects that go out of scope.
 program test_errors
     use, intrinsic :: iso_fortran_env, only: real64
+    use expectations, only: expect
     use wfpsf
     implicit none
     type :: holder
@@ -17,13 +18,6 @@ program test_errors
     call expect(index(wfpsf_library_version(), ".") > 0, "version")
 
 contains
-
-    subroutine expect(truth, what)
-        logical, intent(in) :: truth
-        character(len=*), intent(in) :: what
-
-        if (.not. truth) error stop "failed: " // what
-    end subroutine expect
 
     subroutine takes_stat_and_errmsg()
         type(wfpsf_instrument) :: instrument

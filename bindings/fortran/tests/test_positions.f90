@@ -3,6 +3,7 @@
 program test_positions
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
     use, intrinsic :: iso_fortran_env, only: real64
+    use expectations, only: expect
     use wfpsf
     implicit none
     real(real64), parameter :: eps = 1e-6_real64
@@ -13,13 +14,6 @@ program test_positions
     call of_a_mask()
 
 contains
-
-    subroutine expect(truth, what)
-        logical, intent(in) :: truth
-        character(len=*), intent(in) :: what
-
-        if (.not. truth) error stop "failed: " // what
-    end subroutine expect
 
     ! Flux 1 at (x0, y0), counted from (1, 1); sigma = 4 leaves no trace of the sampling.
     subroutine gaussian(x0, y0, array)
