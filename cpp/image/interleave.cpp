@@ -88,8 +88,8 @@ template <class T> void require_apart(std::span<const DitheredImage<T>> images) 
         const View<T> v = images[k].pixels;
         if (v.empty())
             continue;
-        const auto [x_low, x_high] = std::minmax<int64_t>(0, (v.nx - 1) * v.stride_x);
-        const auto [y_low, y_high] = std::minmax<int64_t>(0, (v.ny - 1) * v.stride_y);
+        const auto [x_low, x_high] = std::minmax({int64_t{0}, (v.nx - 1) * v.stride_x});
+        const auto [y_low, y_high] = std::minmax({int64_t{0}, (v.ny - 1) * v.stride_y});
         extents.push_back({v.data + x_low + y_low, v.data + x_high + y_high, k});
     }
     std::sort(extents.begin(), extents.end(),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numerics/nufft.hpp"
 
+#include "numerics/dispatch.hpp"
 #include "numerics/fft.hpp"
 #include "numerics/quadrature.hpp"
 
@@ -70,7 +71,7 @@ template <int W> class KernelPolynomials {
     }
 
     // Values at cells 0..W-1 for a source at offset z in [-1, 1] of half a cell.
-    void evaluate(double z, double *values) const {
+    [[gnu::always_inline]] void evaluate(double z, double *values) const {
         for (int cell = 0; cell < W; ++cell)
             values[cell] = coefficients_[degree][static_cast<size_t>(cell)];
         for (size_t k = degree; k-- > 0;)
@@ -122,8 +123,9 @@ struct Axis {
 
 // Sums the sources onto the cells that they touch: grid[y * x.used + x].
 template <int W>
-std::vector<Complex> spread(std::span<const double> a, std::span<const double> b,
-                            std::span<const Complex> c, const Axis &x, const Axis &y) {
+WFPSF_VECTORISED std::vector<Complex> spread(std::span<const double> a, std::span<const double> b,
+                                             std::span<const Complex> c, const Axis &x,
+                                             const Axis &y) {
     const KernelPolynomials<W> polynomials;
     std::vector<Complex> grid(static_cast<size_t>(x.used * y.used));
     for (size_t i = 0; i < c.size(); ++i) {

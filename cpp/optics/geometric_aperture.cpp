@@ -42,11 +42,11 @@ Plane<Complex> transform(const PupilNodes &nodes, const Wavefront &wavefront, do
 
 // Grid indices on each axis at which an amplitude is checked, all pairs of them: errors grow
 // outwards, so mostly near the border.
-constexpr size_t per_axis = 3;
+constexpr size_t per_axis = 2;
 using Probes = std::array<Complex, per_axis * per_axis>; // y * per_axis + x
 
 std::array<int64_t, per_axis> probes(const FocalGrid &grid) {
-    return {0, std::llround(1.7 * grid.half()), grid.size - 1};
+    return {0, std::llround(1.8 * grid.half())};
 }
 
 // The amplitude at the probes by plain summation.

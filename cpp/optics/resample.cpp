@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "optics/resample.hpp"
 
+#include "numerics/dispatch.hpp"
+
 #include <algorithm>
 #include <numeric>
 
@@ -39,8 +41,8 @@ RowSums interpolating_sums(const BandlimitedInterpolator &interpolator, const Po
 
 // Sums of whole rows (the inner loop runs along x, contiguous), written transposed, so that the
 // same pass done twice treats both axes and restores the order. Input columns begin..end only.
-Plane<double> sum_rows_transposed(View<const double> in, const RowSums &sums, int64_t begin,
-                                  int64_t end) {
+WFPSF_VECTORISED Plane<double> sum_rows_transposed(View<const double> in, const RowSums &sums,
+                                                   int64_t begin, int64_t end) {
     Plane<double> out(static_cast<int64_t>(sums.first.size()), end - begin);
     std::vector<double> line(static_cast<size_t>(end - begin));
     for (size_t j = 0; j < sums.first.size(); ++j) {
