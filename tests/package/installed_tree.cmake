@@ -9,7 +9,7 @@ run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${WORK}/first)
 set(tree ${WORK}/moved)
 file(RENAME ${WORK}/first ${tree})
 
-run(${CMAKE_COMMAND} -S ${CONSUMER} -B ${WORK}/consumer -DCMAKE_PREFIX_PATH=${tree}
+run(${CMAKE_COMMAND} -G Ninja -S ${CONSUMER} -B ${WORK}/consumer -DCMAKE_PREFIX_PATH=${tree}
   -DCMAKE_C_COMPILER=${CC} -DEXPECTED_VERSION=${VERSION})
 run(${CMAKE_COMMAND} --build ${WORK}/consumer)
 run(${WORK}/consumer/consumer ${VERSION})
