@@ -89,13 +89,34 @@ Case draw_case(const char *name, double eps, int64_t n, int64_t oversampling, do
             }};
 }
 
+// Stars all over a detector, each +-16 native pixels; the error is that of one of them by itself.
+Case stars_case(const char *name, int64_t count, int threads) {
+    return {name, "largest pixel error / peak pixel", 0, 1e-5, [=] {
+                const int64_t n = 4088;
+                std::vector<Star> stars;
+                for (int64_t i = 0; i < count; ++i) // a golden-ratio lattice
+                    stars.push_back({std::fmod(static_cast<double>(i) * 0.6180339887, 1.0) * n,
+                                     static_cast<double>(i * n) / static_cast<double>(count), 1});
+                Plane<double> image(n, n);
+                const Psf psf = make_psf(1e-5);
+                Measured m;
+                m.timing = time([&] { psf.add(stars, 1, image.view(), threads); });
+                m.error = draw_error(psf, 32, 1);
+                return m;
+            }};
+}
+
 } // namespace
 
 std::vector<Case> psf_cases() {
-    return {model_case(1e-3, 0), model_case(1e-6, 2.5e-3), model_case(1e-10, 5e-3),
+    return {model_case(1e-3, 0),
+            model_case(1e-6, 2.5e-3),
+            model_case(1e-10, 5e-3),
             draw_case("star stamp 32^2, model built, eps 1e-5", 1e-5, 32, 1, 5e-6, false),
             draw_case("effective PSF 512^2 at pixel/32 with its model, eps 1e-6", 1e-6, 512, 32,
-                      10e-3, true)};
+                      10e-3, true),
+            stars_case("1e4 stars on 4088^2, +-16 native pixels, eps 1e-5", 10000, 1),
+            stars_case("1e4 stars on 4088^2, the same, 2 threads", 10000, 2)};
 }
 
 } // namespace wfpsf::bench

@@ -120,6 +120,44 @@ wfpsf_status wfpsf_psf_draw(const wfpsf_psf *psf, double x, double y, double flu
     });
 }
 
+wfpsf_status wfpsf_psf_add_stars(const wfpsf_psf *psf, int64_t count, const double *x,
+                                 const double *y, const double *flux, const wfpsf_options *options,
+                                 wfpsf_image *image) {
+    return guarded([&] {
+        require_pointer(psf, "psf");
+        require_pointer(image, "image");
+        if (count < 0)
+            fail(WFPSF_ERROR_SIZE, "count = %lld: must be >= 0", static_cast<long long>(count));
+        if (count > 0) {
+            require_pointer(x, "x");
+            require_pointer(y, "y");
+            require_pointer(flux, "flux");
+        }
+        Image &target = image->image;
+        for (const Effect later : {Effect::ipc, Effect::ipc_correction})
+            target.require_not_applied(later, flag(options, WFPSF_OPTION_FORCE));
+        const double scale = target.pixel_scale_arcsec();
+        if (scale != 0 && std::abs(scale / psf->pixel_scale_arcsec - 1) > 1e-9)
+            fail(WFPSF_ERROR_ARGUMENT, "image: has pixels of %.10g arcsec, the PSF of %.10g", scale,
+                 psf->pixel_scale_arcsec);
+        std::vector<Star> stars;
+        for (int64_t i = 0; i < count; ++i) {
+            for (const auto &[name, value] :
+                 {std::pair("x", x[i]), std::pair("y", y[i]), std::pair("flux", flux[i])})
+                if (!std::isfinite(value))
+                    fail(WFPSF_ERROR_NOT_FINITE, "%s[%lld] = %g: must be finite", name,
+                         static_cast<long long>(i), value);
+            stars.push_back({x[i], y[i], flux[i]});
+        }
+        const auto threads = static_cast<int>(option(options, WFPSF_OPTION_THREADS));
+        std::visit(
+            [&](auto pixels) { psf->psf.add(stars, target.oversampling(), pixels, threads); },
+            target.pixels());
+        target.set_pixel_scale_arcsec(psf->pixel_scale_arcsec);
+        target.record_applied(Effect::pixel_response);
+    });
+}
+
 wfpsf_status wfpsf_psf_get(const wfpsf_psf *psf, int32_t key, double *value) {
     return guarded([&] {
         require_pointer(psf, "psf");

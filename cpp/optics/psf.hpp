@@ -9,6 +9,7 @@
 #include "optics/wavefront.hpp"
 
 #include <memory>
+#include <span>
 
 namespace wfpsf {
 
@@ -17,6 +18,11 @@ struct PsfSettings {
     double pixel_scale; // native pixel, radians
     double eps;         // largest error of any pixel, in units of the peak pixel
     double radius;      // half size of the field made in advance, native pixels
+};
+
+// Position in samples of an image, the first one's centre at (0, 0).
+struct Star {
+    double x, y, flux;
 };
 
 // Immutable once made; draw() may be called from many threads.
@@ -31,6 +37,12 @@ class Psf {
     // gets a larger field of its own, at the cost of making it.
     template <class T>
     void draw(double x, double y, double flux, int64_t oversampling, View<T> out) const;
+
+    // Adds stars to an image, each on the pixels within settings().radius of it along both axes;
+    // stars out of reach of the image add nothing. The threads share the image's rows, and the bits
+    // do not depend on their number.
+    template <class T>
+    void add(std::span<const Star> stars, int64_t oversampling, View<T> image, int threads) const;
 
     const PsfSettings &settings() const { return settings_; }
     double lit_area() const { return aperture_->area(); } // m^2
@@ -56,8 +68,11 @@ class Psf {
     Field make_field(double radius) const;
     Field make_field(double radius, double tolerance) const;
     template <class T>
-    void draw_from(const Field &field, double x, double y, double flux, int64_t oversampling,
-                   View<T> out) const;
+    void draw_from(const Field &field, const Star &star, int64_t oversampling, int64_t first_x,
+                   int64_t first_y, View<T> out) const;
+    template <class T>
+    void add_to_rows(std::span<const Star> stars, int64_t oversampling, View<T> image,
+                     int64_t first_row, int64_t last_row) const;
 
     std::shared_ptr<const Aperture> aperture_;
     Wavefront wavefront_;

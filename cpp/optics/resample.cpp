@@ -11,31 +11,36 @@ namespace wfpsf {
 
 namespace {
 
-// Output row i = sum over k of weights[i % phases][k] * row(first[i] + k) of the input. Places that
-// fall on the same fraction of a sample share their weights.
+// Output row i = sum over k of weights[(phase + i) % phases][k] * row(first[i] + k) of the input.
+// Places that fall on the same fraction of a sample share their weights.
 struct RowSums {
     std::vector<int64_t> first;
     std::vector<std::vector<double>> weights;
+    int64_t phase = 0;
+
+    const std::vector<double> &weights_of(int64_t i) const {
+        return weights[static_cast<size_t>(phase + i) % weights.size()];
+    }
     int64_t rows_begin() const { return first.front(); }
     int64_t rows_end() const { return first.back() + static_cast<int64_t>(weights[0].size()); }
 };
 
 RowSums interpolating_sums(const BandlimitedInterpolator &interpolator, const Positions &p) {
-    const int64_t divisor = std::gcd(p.numerator, p.denominator);
-    const int64_t phases = std::min(p.denominator / divisor, p.count);
+    const int64_t phases = p.denominator / std::gcd(p.numerator, p.denominator);
     RowSums sums;
-    sums.weights.resize(static_cast<size_t>(phases));
-    for (int64_t i = 0; i < p.count; ++i) {
-        if (i < phases) {
-            std::vector<double> &w = sums.weights[static_cast<size_t>(i)];
-            w.resize(static_cast<size_t>(interpolator.taps()));
-            const double place =
-                p.start + static_cast<double>(i * p.numerator) / static_cast<double>(p.denominator);
-            sums.first.push_back(interpolator.weights(place, w.data()));
-        } else {
-            const int64_t before = sums.first[static_cast<size_t>(i - phases)];
-            sums.first.push_back(before + p.numerator * phases / p.denominator);
-        }
+    sums.phase = p.first % phases;
+    std::vector<int64_t> first_of_phase;
+    for (int64_t i = 0; i < std::min(phases, p.first + p.count); ++i) {
+        std::vector<double> &w =
+            sums.weights.emplace_back(static_cast<size_t>(interpolator.taps()));
+        const double place =
+            p.start + static_cast<double>(i * p.numerator) / static_cast<double>(p.denominator);
+        first_of_phase.push_back(interpolator.weights(place, w.data()));
+    }
+    for (int64_t i = p.first; i < p.first + p.count; ++i) {
+        const int64_t phase = i % phases;
+        sums.first.push_back(first_of_phase[static_cast<size_t>(phase)] +
+                             (i - phase) * p.numerator / p.denominator);
     }
     return sums;
 }
@@ -72,9 +77,10 @@ constexpr int64_t block = 16;
     }
 }
 
-// The same for the last columns, fewer than a block.
-void sum_rest(const double *rows, int64_t stride, const std::vector<double> &weights,
-              int64_t columns, double *sums) {
+// The same for the last columns, fewer than a block; inline, so that it rounds as the block does.
+[[gnu::always_inline]] inline void sum_rest(const double *rows, int64_t stride,
+                                            const std::vector<double> &weights, int64_t columns,
+                                            double *sums) {
     std::fill_n(sums, columns, 0.0);
     for (const double weight : weights) {
         for (int64_t x = 0; x < columns; ++x)
@@ -91,8 +97,7 @@ WFPSF_VECTORISED Plane<double> sum_rows_transposed(View<const double> in, const 
     Plane<double> out(count, end - begin);
     double *const pixels = out.view().data;
     for (int64_t j = 0; j < count; ++j) {
-        const std::vector<double> &weights =
-            sums.weights[static_cast<size_t>(j) % sums.weights.size()];
+        const std::vector<double> &weights = sums.weights_of(j);
         const double *rows = in.row(sums.first[static_cast<size_t>(j)]) + begin;
         for (int64_t x = 0; x < out.ny(); x += block) {
             double line[block];

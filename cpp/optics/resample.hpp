@@ -9,10 +9,11 @@
 
 namespace wfpsf {
 
-// Equally spaced places in grid samples: start + i numerator / denominator, i = 0..count-1.
+// Equally spaced places in grid samples: start + i numerator / denominator, i =
+// first..first+count-1. A part of a range gives the same bits as the whole.
 struct Positions {
     double start;
-    int64_t count, numerator, denominator;
+    int64_t first, count, numerator, denominator;
 };
 
 // out(i, j) = scale * grid at the i-th place along x and the j-th along y. Every place must lie at

@@ -248,6 +248,51 @@ static void test_tilt(const wfpsf_instrument *c5) {
     wfpsf_options_destroy(options);
 }
 
+/* Stars in the image, on its border and far off, with one thread and several. */
+static void test_add_stars(const wfpsf_psf *psf) {
+    const double x[4] = {10.3, -0.5, 39, 1e300}, y[4] = {12.9, 20, -5.6, 0};
+    const double flux[4] = {100, 70, 30, 1}, bad[4] = {1, 2, NAN, 3};
+    double one[41 * 37] = {0}, many[41 * 37] = {0}, expected[41 * 37] = {0}, stamp[41 * 37];
+    wfpsf_image *image = wrap(one, 41, 37), *shared = wrap(many, 41, 37);
+    wfpsf_options *options = NULL;
+    CHECK_OK(wfpsf_psf_add_stars(psf, 4, x, y, flux, NULL, image));
+    check_record(image, 1, 0.11, WFPSF_EFFECT_PIXEL_RESPONSE);
+    for (int k = 0; k < 3; ++k) {
+        draw(psf, 41, 37, 1, x[k], y[k], stamp);
+        for (int i = 0; i < 41 * 37; ++i)
+            if (fabs(i % 41 - x[k]) <= 12 && fabs(i / 41 - y[k]) <= 12)
+                expected[i] += flux[k] * stamp[i];
+    }
+    for (int i = 0; i < 41 * 37; ++i)
+        CHECK_NEAR(one[i], expected[i], 1e-5);
+    CHECK_OK(wfpsf_options_create(&options));
+    CHECK_OK(wfpsf_options_set_integer(options, WFPSF_OPTION_THREADS, 5));
+    CHECK_OK(wfpsf_psf_add_stars(psf, 4, x, y, flux, options, shared));
+    CHECK(memcmp(one, many, sizeof one) == 0);
+
+    CHECK_FAILS(WFPSF_ERROR_NULL, "psf", wfpsf_psf_add_stars(NULL, 4, x, y, flux, NULL, image));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "x", wfpsf_psf_add_stars(psf, 4, NULL, y, flux, NULL, image));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "y", wfpsf_psf_add_stars(psf, 4, x, NULL, flux, NULL, image));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "flux", wfpsf_psf_add_stars(psf, 4, x, y, NULL, NULL, image));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "image", wfpsf_psf_add_stars(psf, 4, x, y, flux, NULL, NULL));
+    CHECK_FAILS(WFPSF_ERROR_SIZE, "count = -1",
+                wfpsf_psf_add_stars(psf, -1, x, y, flux, NULL, image));
+    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "y[2] = nan",
+                wfpsf_psf_add_stars(psf, 4, x, bad, flux, NULL, image));
+    CHECK_OK(wfpsf_image_set_record(image, 1, 0.2, 0));
+    CHECK_FAILS(WFPSF_ERROR_ARGUMENT, "0.2", wfpsf_psf_add_stars(psf, 4, x, y, flux, NULL, image));
+    CHECK_OK(wfpsf_image_set_record(image, 1, 0, WFPSF_EFFECT_IPC));
+    CHECK_FAILS(WFPSF_ERROR_ALREADY_APPLIED, "interpixel",
+                wfpsf_psf_add_stars(psf, 4, x, y, flux, NULL, image));
+    CHECK(memcmp(one, many, sizeof one) == 0);
+    CHECK_OK(wfpsf_options_set_integer(options, WFPSF_OPTION_FORCE, 1));
+    CHECK_OK(wfpsf_psf_add_stars(psf, 4, x, y, flux, options, image));
+    CHECK_OK(wfpsf_psf_add_stars(psf, 0, NULL, NULL, NULL, NULL, shared));
+    wfpsf_options_destroy(options);
+    wfpsf_image_destroy(image);
+    wfpsf_image_destroy(shared);
+}
+
 int main(void) {
     wfpsf_instrument *c5 = NULL;
     CHECK_OK(wfpsf_instrument_create("wfirst-afta-c5", &c5));
@@ -263,6 +308,7 @@ int main(void) {
     test_small_images(psf);
     test_storage(psf);
     test_native_and_oversampled(psf);
+    test_add_stars(psf);
     wfpsf_psf_destroy(psf);
     return checked();
 }

@@ -88,6 +88,7 @@ module wfpsf
         procedure :: create_from_mask => psf_create_from_mask
         procedure :: destroy => psf_destroy
         procedure :: draw => psf_draw
+        procedure :: add_stars => psf_add_stars
         procedure :: get => psf_get
         final :: psf_finalize
     end type wfpsf_psf
@@ -464,7 +465,7 @@ module wfpsf
     end interface
 
     ! PSFs.
-    private :: psf_create, psf_create_from_mask, psf_destroy, psf_draw, psf_get, psf_finalize
+    private :: psf_create, psf_create_from_mask, psf_destroy, psf_draw, psf_add_stars, psf_get, psf_finalize
     interface
         ! At the centre of detector sca, 1..18. Options: eps, struts, psf_radius, piston_tilt and
         ! extra Zernikes.
@@ -505,6 +506,17 @@ module wfpsf
             integer, intent(out), optional :: stat
             character(len=*), intent(inout), optional :: errmsg
         end subroutine psf_draw
+
+        ! Adds stars, each within the PSF's radius of it, clipped at the image's borders. The arrays
+        ! are of one size; options: threads, force.
+        module subroutine psf_add_stars(self, x, y, flux, image, options, stat, errmsg)
+            class(wfpsf_psf), intent(in) :: self
+            real(real64), intent(in), contiguous :: x(:), y(:), flux(:)
+            type(wfpsf_image), intent(inout) :: image
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine psf_add_stars
 
         ! key: wfpsf_psf_*.
         module subroutine psf_get(self, key, value, stat, errmsg)

@@ -62,6 +62,7 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_option_size_total_flux = 400
     integer(c_int32_t), parameter :: wfpsf_option_size_bandwidth = 410
     integer(c_int32_t), parameter :: wfpsf_option_fits_overwrite = 500
+    integer(c_int32_t), parameter :: wfpsf_option_threads = 600
     integer(c_int32_t), parameter :: wfpsf_option_real = 1
     integer(c_int32_t), parameter :: wfpsf_option_integer = 2
 
@@ -507,6 +508,20 @@ module wfpsf_c
             type(c_ptr), value :: image
             integer(c_int32_t) :: outcome
         end function wfpsf_psf_draw
+
+        function wfpsf_psf_add_stars(psf, count, x, y, flux, options, image) &
+            bind(c, name="wfpsf_psf_add_stars") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: psf
+            integer(c_int64_t), value :: count
+            real(c_double), intent(in), optional :: x(*)
+            real(c_double), intent(in), optional :: y(*)
+            real(c_double), intent(in), optional :: flux(*)
+            type(c_ptr), value :: options
+            type(c_ptr), value :: image
+            integer(c_int32_t) :: outcome
+        end function wfpsf_psf_add_stars
 
         function wfpsf_psf_get(psf, key, value) bind(c, name="wfpsf_psf_get") result(outcome)
             import :: c_double, c_int32_t, c_ptr

@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: GPL-3.0-or-later
 submodule(wfpsf) wfpsf_psf_procedures
+    use, intrinsic :: iso_c_binding, only: c_int64_t
     use wfpsf_c
     use wfpsf_common, only: report
     implicit none
@@ -36,6 +37,16 @@ contains
     module procedure psf_draw
         call report(wfpsf_psf_draw(self%pointer, x - 1, y - 1, flux, image%pointer), stat, errmsg)
     end procedure psf_draw
+
+    module procedure psf_add_stars
+        integer(c_int64_t) :: n
+
+        ! A negative count makes the library refuse arrays of different sizes.
+        n = size(x, kind=c_int64_t)
+        if (size(y, kind=c_int64_t) /= n .or. size(flux, kind=c_int64_t) /= n) n = -1
+        call report(wfpsf_psf_add_stars(self%pointer, n, x - 1, y - 1, flux, pointer_of(options), &
+            image%pointer), stat, errmsg)
+    end procedure psf_add_stars
 
     module procedure psf_get
         call report(wfpsf_psf_get(self%pointer, key, value), stat, errmsg)

@@ -106,6 +106,7 @@ contains
         type(wfpsf_image) :: image
         type(wfpsf_options) :: options
         real(real64) :: peak
+        integer :: status
 
         call instrument%create("wfirst-afta-c5")
         call options%create()
@@ -119,6 +120,13 @@ contains
         call image%wrap(moved, 1)
         call psf%draw(16.0_real64, 19.0_real64, 1.0_real64, image)
         call expect(maxval(abs(moved(:32, 3:) - middle(2:, :31))) < 2 * eps * peak, "a star moved")
+
+        ! Taken away where it was drawn, as far as the PSF's radius of 16 pixels goes.
+        call psf%add_stars([16.0_real64, 900.0_real64], [19.0_real64, 1.0_real64], &
+            [-1.0_real64, 1.0_real64], image)
+        call expect(maxval(abs(moved(:32, 3:))) < 2 * eps * peak, "a star taken away")
+        call psf%add_stars([1.0_real64], [1.0_real64], [1.0_real64, 2.0_real64], image, stat=status)
+        call expect(status == wfpsf_error_size, "arrays of two sizes")
     end subroutine of_a_star
 
     ! A disc about the axis is even: its PSF has its centroid where the star is put.

@@ -96,6 +96,7 @@ const WFPSF_OPTION_MOMENTS_GUESS_SIGMA = Int32(340)
 const WFPSF_OPTION_SIZE_TOTAL_FLUX = Int32(400)
 const WFPSF_OPTION_SIZE_BANDWIDTH = Int32(410)
 const WFPSF_OPTION_FITS_OVERWRITE = Int32(500)
+const WFPSF_OPTION_THREADS = Int32(600)
 const WFPSF_OPTION_REAL = Int32(1)
 const WFPSF_OPTION_INTEGER = Int32(2)
 
@@ -324,6 +325,13 @@ function wfpsf_psf_draw(psf, x, y, flux, image)
         psf, x, y, flux, image)
 end
 
+const wfpsf_psf_add_stars_pointer = Ref(C_NULL)
+function wfpsf_psf_add_stars(psf, count, x, y, flux, options, image)
+    return ccall(wfpsf_psf_add_stars_pointer[], Int32, (Ptr{Cvoid}, Int64, Ptr{Float64},
+        Ptr{Float64}, Ptr{Float64}, Ptr{Cvoid}, Ptr{Cvoid}),
+        psf, count, x, y, flux, options, image)
+end
+
 const wfpsf_psf_get_pointer = Ref(C_NULL)
 function wfpsf_psf_get(psf, key, value)
     return ccall(wfpsf_psf_get_pointer[], Int32, (Ptr{Cvoid}, Int32, Ptr{Float64}),
@@ -510,6 +518,7 @@ const pointers = [
     :wfpsf_psf_create_from_mask => wfpsf_psf_create_from_mask_pointer,
     :wfpsf_psf_destroy => wfpsf_psf_destroy_pointer,
     :wfpsf_psf_draw => wfpsf_psf_draw_pointer,
+    :wfpsf_psf_add_stars => wfpsf_psf_add_stars_pointer,
     :wfpsf_psf_get => wfpsf_psf_get_pointer,
     :wfpsf_ipc_kernel_create => wfpsf_ipc_kernel_create_pointer,
     :wfpsf_ipc_kernel_create_taps => wfpsf_ipc_kernel_create_taps_pointer,

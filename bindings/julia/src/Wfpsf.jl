@@ -29,7 +29,7 @@ export WfpsfError, options,
     Instrument, constant, constants, band, bands, throughput, zernikes,
     Image, record, set_record!, read_fits, write_fits,
     interleave, interleave!, deinterleave, deinterleave!,
-    PSF, draw, draw!,
+    PSF, draw, draw!, add_stars!,
     IPCKernel, wfc3_kernel, correction, flipped, taps, apply_ipc, apply_ipc!,
     Moments, adaptive_moments, unweighted_moments,
     encircled_energy, ee_radius, fwhm

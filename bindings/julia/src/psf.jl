@@ -2,6 +2,7 @@
 
 const PSF_PROPERTIES = constants_of("WFPSF_PSF_")
 const PSF_OPTIONS = (:eps, :struts, :psf_radius, :piston_tilt, :zernikes)
+const STAR_OPTIONS = (:threads, :force)
 
 """
     PSF(instrument, sca, wavelength_nm; options...)
@@ -72,6 +73,27 @@ record becomes the PSF's pixel scale, with the pixel response applied.
 """
 function draw!(image::Image, psf::PSF, x::Real, y::Real; flux::Real = 1)
     check(LibWfpsf.wfpsf_psf_draw(psf, x - 1, y - 1, flux, image))
+    return image
+end
+
+"""
+    add_stars!(image, psf, x, y, flux; threads = 1, force = false)
+
+Adds stars at the positions `x`, `y` with the given fluxes, three vectors of one length, to the
+image: each with the light that falls within the PSF's `radius` (native pixels) of it along both
+axes, clipped at the image's borders. (x, y) are pixels of the image, the centre of the first one
+being (1, 1). The result does not depend on the number of threads. An image that has been through
+IPC is refused unless `force` is set.
+"""
+function add_stars!(image::Image, psf::PSF, x::AbstractVector{<:Real}, y::AbstractVector{<:Real},
+                    flux::AbstractVector{<:Real}; keywords...)
+    length(x) == length(y) == length(flux) || throw(DimensionMismatch(
+        "x, y and flux must have one length, not $(length(x)), $(length(y)) and $(length(flux))"))
+    with_options(STAR_OPTIONS, keywords) do options
+        check(LibWfpsf.wfpsf_psf_add_stars(psf, length(x), Vector{Float64}(x) .- 1,
+                                           Vector{Float64}(y) .- 1, Vector{Float64}(flux), options,
+                                           image))
+    end
     return image
 end
 

@@ -26,6 +26,16 @@ pixels = draw(perfect, 15, 18; oversampling = 3).pixels
 moved = draw(psf, 19, 20; x = 8 + 4, y = 9 + 2, oversampling = 3, flux = 2)
 @test maximum(abs, moved.pixels[5:19, 3:19] - star.pixels) < 3e-5 * maximum(star.pixels)
 
+# Stars are added to what is there, wherever they lie.
+field = Image(Float64, 41, 37)
+add_stars!(field, psf, [12.3, 12.3, -500], 1:3:7, [3, 1, 1e9]; threads = 2)
+add_stars!(field, psf, [12.3, 30], [1, 36], Float32[-3, 0])
+alone = draw!(Image(Float64, 41, 37), psf, 12.3, 4)
+near = [abs(x - 12.3) <= psf.radius && abs(y - 4) <= psf.radius for x = 1:41, y = 1:37]
+@test maximum(abs, field.pixels - near .* alone.pixels) < 1e-8
+@test_throws DimensionMismatch add_stars!(field, psf, [1, 2], [1, 2], [1])
+@test status_of(() -> add_stars!(field, psf, [1], [NaN], [1])) == LibWfpsf.WFPSF_ERROR_NOT_FINITE
+
 @test status_of(() -> draw!(star, psf, 8, 9; flux = NaN)) == LibWfpsf.WFPSF_ERROR_NOT_FINITE
 @test status_of(() -> PSF(Instrument(), 0, 1292)) == LibWfpsf.WFPSF_ERROR_RANGE
 

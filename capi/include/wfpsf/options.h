@@ -57,7 +57,8 @@ enum { WFPSF_OPTION_REAL = 1, WFPSF_OPTION_INTEGER = 2 };
       1.7976931348623157e308, "flux that counts as 100%; automatic: the sum of all pixels")        \
     X(SIZE_BANDWIDTH, 410, REAL, 0.25, 1e-3, 0.45,                                                 \
       "highest frequency in the image, cycles per pixel of the image")                             \
-    X(FITS_OVERWRITE, 500, INTEGER, 0, 0, 1, "1: replace an existing file")
+    X(FITS_OVERWRITE, 500, INTEGER, 0, 0, 1, "1: replace an existing file")                        \
+    X(THREADS, 600, INTEGER, 1, 1, 1024, "threads that a call may use, the caller's among them")
 
 #define WFPSF_OPTION_ENUM(name, key, kind, standard, smallest, largest, text)                      \
     WFPSF_OPTION_##name = (key),

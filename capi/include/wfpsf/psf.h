@@ -91,6 +91,24 @@ WFPSF_EXPORT wfpsf_status wfpsf_psf_draw(const wfpsf_psf *psf, double x, double 
                                          wfpsf_image *image);
 
 /**
+ * Adds stars to an image, each with the light that falls within the PSF's RADIUS of it along both
+ * axes, clipped at the image's borders. Values and positions are those of wfpsf_psf_draw(). Stars
+ * out of reach of the image add nothing. The image's record must hold no effect beyond the pixel
+ * response (light does not come after IPC), and a pixel scale, if it states one, that is the PSF's;
+ * afterwards it states both.
+ *
+ * Given:    count       of stars, >= 0
+ *           x, y, flux  count numbers each, all finite
+ *           options     THREADS, which changes the time and no bit of the result; FORCE
+ * Returned: image       pixels and record; untouched on failure
+ * Status:   ERROR_NULL, ERROR_SIZE, ERROR_NOT_FINITE, ERROR_ALREADY_APPLIED, ERROR_ARGUMENT
+ * (another pixel scale), ERROR_NO_MEMORY
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_psf_add_stars(const wfpsf_psf *psf, int64_t count, const double *x,
+                                              const double *y, const double *flux,
+                                              const wfpsf_options *options, wfpsf_image *image);
+
+/**
  * One property of a PSF.
  *
  * Given:    key    WFPSF_PSF_*

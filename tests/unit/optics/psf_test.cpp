@@ -147,6 +147,43 @@ TEST(Psf, SamplingOffsetsAndTypesAgree) {
     EXPECT_THROW(psf.draw(1e5, 0, 1, 1, native.view()), Error);
 }
 
+// Stars in a heap, on and beyond the borders, against a stamp of each drawn by itself.
+TEST(Psf, StarsAreAddedWithClippingAndAnyNumberOfThreads) {
+    const Psf psf(make_aperture(c5().common_pupil), sca_wavefront(7, 1292.11e-9),
+                  {1292.11e-9, pixel_scale, 1e-8, 6});
+    const std::vector<Star> stars = {{10.3, 12.9, 100}, {10.3, 12.9, 50}, {-0.5, 20, 70},
+                                     {39, -5.6, 30},    {-7, 3, 1e6},     {1e300, 0, 1},
+                                     {20, 33.5, -20},   {46.2, 36, 10}};
+    for (const int64_t N : {1, 3}) {
+        Plane<double> expected(41, 37);
+        for (const Star &star : stars) {
+            if (!(std::abs(star.x) < 100))
+                continue;
+            Plane<double> stamp(41, 37);
+            psf.draw(star.x, star.y, star.flux, N, stamp.view());
+            for (int64_t y = 0; y < 37; ++y)
+                for (int64_t x = 0; x < 41; ++x)
+                    if (std::abs(static_cast<double>(x) - star.x) <= 6.0 * static_cast<double>(N) &&
+                        std::abs(static_cast<double>(y) - star.y) <= 6.0 * static_cast<double>(N))
+                        expected(x, y) += stamp(x, y);
+        }
+        Plane<double> one(41, 37);
+        psf.add(stars, N, one.view(), 1);
+        for (int64_t y = 0; y < 37; ++y)
+            for (int64_t x = 0; x < 41; ++x)
+                EXPECT_NEAR(one(x, y), expected(x, y), 2e-6) << x << ' ' << y;
+        for (const int threads : {2, 3, 7, 100}) {
+            Plane<double> many(41, 37);
+            psf.add(stars, N, many.view(), threads);
+            for (int64_t y = 0; y < 37; ++y)
+                for (int64_t x = 0; x < 41; ++x)
+                    ASSERT_EQ(many(x, y), one(x, y)) << threads << ' ' << x << ' ' << y;
+        }
+    }
+    Plane<float> none(0, 0);
+    psf.add(stars, 1, none.view(), 4);
+}
+
 TEST(Psf, EqualCallsGiveEqualBits) {
     const auto draw = [] {
         const Psf psf(make_aperture(c5().common_pupil), sca_wavefront(3, 1577.05e-9),
