@@ -22,6 +22,10 @@ const Instrument &c5() {
     return Instrument::get("wfirst-afta-c5");
 }
 
+const SegmentedPupil &c5_pupil() {
+    return std::get<SegmentedPupil>(c5().pupil(7, "J129"));
+}
+
 Wavefront sca7() {
     const auto zernikes = c5().zernikes(7);
     std::vector<double> waves(zernikes.begin(), zernikes.end());
@@ -32,14 +36,14 @@ Wavefront sca7() {
 }
 
 Psf make_psf(double eps, double reach = radius) {
-    return Psf(make_aperture(c5().common_pupil), sca7(), {wavelength, pixel_scale, eps, reach});
+    return Psf(make_aperture(c5_pupil()), sca7(), {wavelength, pixel_scale, eps, reach});
 }
 
 // Draws an image of n^2 samples with the star a little off its centre; the largest error over
 // probes from the core to the corners.
 double draw_error(const Psf &psf, int64_t n, int64_t oversampling) {
     static const oracle::Intensity truth =
-        oracle::brute_force(pupil_nodes(c5().common_pupil, 120, 1e-14), sca7(), wavelength);
+        oracle::brute_force(pupil_nodes(c5_pupil(), 120, 1e-14), sca7(), wavelength);
     const double star = static_cast<double>(n - 1) / 2 + 0.23;
     Plane<double> image(n, n);
     psf.draw(star, star, 1, oversampling, image.view());

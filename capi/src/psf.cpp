@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <variant>
 
 using namespace wfpsf;
@@ -14,9 +15,8 @@ namespace {
 constexpr double arcsec = std::numbers::pi / 180 / 3600;
 
 // The instrument's own aberrations and the caller's, in waves at the wavelength asked for.
-Wavefront make_wavefront(const Instrument &instrument, int32_t sca, double wavelength_nm,
-                         const wfpsf_options *options) {
-    const auto own = instrument.zernikes(sca);
+Wavefront make_wavefront(const Instrument &instrument, std::span<const double> own,
+                         double wavelength_nm, const wfpsf_options *options) {
     const std::vector<double> &extra = extra_zernikes(options);
     std::vector<double> coefficients(std::max(own.size(), extra.size()));
     std::copy(own.begin(), own.end(), coefficients.begin());
@@ -29,20 +29,29 @@ Wavefront make_wavefront(const Instrument &instrument, int32_t sca, double wavel
     return Wavefront(coefficients, instrument.diameter_m() / 2);
 }
 
-// What both ways to make a PSF share; the aperture is made only when the arguments are sound.
+std::unique_ptr<const Aperture> make_aperture_of(const Instrument &instrument, int32_t sca,
+                                                 const char *band, const wfpsf_options *options) {
+    if (!flag(options, WFPSF_OPTION_STRUTS))
+        return make_aperture(instrument.annular_pupil());
+    return std::visit([](const auto &pupil) { return make_aperture(pupil); },
+                      instrument.pupil(sca, band));
+}
+
+// What all ways to make a PSF share; the aperture is made only when the arguments are sound.
 template <class MakeAperture>
-wfpsf_status create(const wfpsf_instrument *handle, int32_t sca, double wavelength_nm,
-                    const wfpsf_options *options, wfpsf_psf **out, MakeAperture make) {
-    const Instrument &instrument = handle->instrument;
+wfpsf_status create(const Instrument &instrument, std::span<const double> aberrations,
+                    double wavelength_nm, const wfpsf_options *options, wfpsf_psf **out,
+                    bool mirrored, MakeAperture make) {
     require_finite(wavelength_nm, "wavelength_nm");
     if (!(wavelength_nm >= 100 && wavelength_nm <= 1e5))
         fail(WFPSF_ERROR_RANGE, "wavelength_nm = %g: must be 100..100000", wavelength_nm);
-    const Wavefront wavefront = make_wavefront(instrument, sca, wavelength_nm, options);
+    const Wavefront wavefront = make_wavefront(instrument, aberrations, wavelength_nm, options);
     const PsfSettings settings{.wavelength = wavelength_nm * 1e-9,
                                .pixel_scale = instrument.pixel_scale_arcsec() * arcsec,
                                .eps = option(options, WFPSF_OPTION_EPS),
-                               .radius = option(options, WFPSF_OPTION_PSF_RADIUS)};
-    *out = new wfpsf_psf{Psf(make(instrument), wavefront, settings), wavelength_nm,
+                               .radius = option(options, WFPSF_OPTION_PSF_RADIUS),
+                               .mirrored = mirrored};
+    *out = new wfpsf_psf{Psf(make(), wavefront, settings), wavelength_nm,
                          instrument.pixel_scale_arcsec()};
     const double estimate = (*out)->psf.error_estimate();
     if (estimate <= settings.eps)
@@ -60,10 +69,37 @@ wfpsf_status wfpsf_psf_create(const wfpsf_instrument *instrument, int32_t sca, d
         require_pointer(out, "out");
         *out = nullptr;
         require_pointer(instrument, "instrument");
-        return create(instrument, sca, wavelength_nm, options, out, [&](const Instrument &i) {
-            return flag(options, WFPSF_OPTION_STRUTS) ? make_aperture(i.common_pupil)
-                                                      : make_aperture(i.annular_pupil());
-        });
+        const Instrument &i = instrument->instrument;
+        if (i.pupils.size() > 1)
+            fail(WFPSF_ERROR_ARGUMENT,
+                 "instrument: the pupil of %s depends on the band; use "
+                 "wfpsf_psf_create_in_band()",
+                 i.name);
+        return create(i, i.zernikes(sca), wavelength_nm, options, out, false,
+                      [&] { return make_aperture_of(i, sca, i.bands[0].name, options); });
+    });
+}
+
+wfpsf_status wfpsf_psf_create_in_band(const wfpsf_instrument *instrument, const char *band,
+                                      int32_t sca, double x, double y, double wavelength_nm,
+                                      const wfpsf_options *options, wfpsf_psf **out) {
+    return guarded([&] {
+        require_pointer(out, "out");
+        *out = nullptr;
+        require_pointer(instrument, "instrument");
+        require_pointer(band, "band");
+        require_finite(x, "x");
+        require_finite(y, "y");
+        const Instrument &i = instrument->instrument;
+        const Band &filter = i.band(band);
+        const FieldRule rule =
+            flag(options, WFPSF_OPTION_FIELD_RULE) ? FieldRule::corners : FieldRule::five_points;
+        const bool mirrored =
+            i.pupils.size() > 1 && !flag(options, WFPSF_OPTION_FRAME); // C5: one frame
+        return create(
+            i, i.zernikes(sca, x, y, rule),
+            wavelength_nm == 0 ? tabulated_wavelengths(filter).effective_nm : wavelength_nm,
+            options, out, mirrored, [&] { return make_aperture_of(i, sca, band, options); });
     });
 }
 
@@ -85,7 +121,8 @@ wfpsf_status wfpsf_psf_create_from_mask(const wfpsf_instrument *instrument, cons
             if (!(std::abs(value) <= 1e6))
                 fail(WFPSF_ERROR_RANGE, "%s = %g: must be -1e6..1e6", name, value);
         }
-        return create(instrument, sca, wavelength_nm, options, out, [&](const Instrument &) {
+        const Instrument &i = instrument->instrument;
+        return create(i, i.zernikes(sca), wavelength_nm, options, out, false, [&] {
             return std::visit(
                 [&](auto pixels) {
                     Plane<double> copy(pixels.nx, pixels.ny);

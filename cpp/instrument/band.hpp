@@ -15,6 +15,7 @@ struct Band {
     double first_nm, step_nm;
     std::span<const double> throughput; // dimensionless
     double thermal_background;          // e-/pixel/s
+    size_t pupil_mask = 0;              // which of the instrument's pupil masks it is used with
 
     double wavelength_nm(size_t sample) const {
         return first_nm + step_nm * static_cast<double>(sample);

@@ -2,8 +2,11 @@
 #include "instrument/instrument.hpp"
 
 #include "error/error.hpp"
+#include "instrument/field_interpolation.hpp"
+#include "instrument/roman_c9/tables.hpp"
 #include "instrument/wfirst_afta_c5/tables.hpp"
 
+#include <cmath>
 #include <string>
 
 namespace wfpsf {
@@ -27,10 +30,19 @@ void check_sca(int sca, int count) {
         fail(WFPSF_ERROR_RANGE, "sca = %d: must be 1..%d", sca, count);
 }
 
+void check_position(const char *argument, double value, double last) {
+    constexpr double margin = Instrument::field_margin_pix;
+    if (!std::isfinite(value))
+        fail(WFPSF_ERROR_NOT_FINITE, "%s = %g: must be finite", argument, value);
+    if (!(value >= -margin && value <= last + margin))
+        fail(WFPSF_ERROR_RANGE, "%s = %g: must be %g..%g, the detector and %g pixels around it",
+             argument, value, -margin, last + margin, margin);
+}
+
 } // namespace
 
 std::span<const Instrument> instruments() {
-    static const Instrument all[] = {wfirst_afta_c5::instrument()};
+    static const Instrument all[] = {wfirst_afta_c5::instrument(), roman_c9::instrument()};
     return all;
 }
 
@@ -60,10 +72,22 @@ std::span<const double> Instrument::zernikes(int sca) const {
     return field_points(sca).front().zernikes;
 }
 
-const SegmentedPupil &Instrument::pupil(int sca, std::string_view band_name) const {
-    check_sca(sca, sca_count());
-    band(band_name);
-    return common_pupil;
+std::vector<double> Instrument::zernikes(int sca, double x_pix, double y_pix,
+                                         FieldRule rule) const {
+    const std::span<const FieldPoint> points = field_points(sca);
+    const double last = constant("n_pix").value - 1;
+    check_position("x_pix", x_pix, last);
+    check_position("y_pix", y_pix, last);
+    return interpolate_field(points, x_pix, y_pix, rule);
+}
+
+const Pupil &Instrument::pupil(int sca, std::string_view band_name) const {
+    const int count = sca_count();
+    check_sca(sca, count);
+    const size_t mask = band(band_name).pupil_mask;
+    if (pupils.size() == 1)
+        return pupils.front();
+    return pupils[mask * static_cast<size_t>(count) + static_cast<size_t>(sca - 1)];
 }
 
 AnnularPupil Instrument::annular_pupil() const {

@@ -8,6 +8,7 @@
 #include <array>
 #include <span>
 #include <string_view>
+#include <vector>
 
 namespace wfpsf {
 
@@ -26,6 +27,14 @@ struct FieldPoint {
     std::span<const double> zernikes;
 };
 
+// How wavefront errors are interpolated between a detector's five field points.
+enum class FieldRule {
+    // 1, x, y, xy and x^2 + y^2 combined so that all five points are met.
+    five_points,
+    // Bilinear between the corners; the centre point is not used. So does GalSim 2.8.4.
+    corners,
+};
+
 // Taps of a 3 x 3 kernel in out(p) = sum_d K(d) in(p - d): K(dx, dy) = taps[3 (dy + 1) + dx + 1].
 using IpcTaps = std::array<double, 9>;
 
@@ -34,7 +43,7 @@ struct Instrument {
     std::span<const Constant> constants;
     std::span<const Band> bands;
     std::span<const FieldPoint> all_field_points; // by SCA, as many on each, its centre first
-    SegmentedPupil common_pupil;                  // of all SCAs and bands
+    std::span<const Pupil> pupils;                // by mask, then by SCA; or one that serves all
     IpcTaps ipc_kernel;                           // the detectors' nominal one
 
     // An unknown name of an instrument, constant or band: WFPSF_ERROR_UNKNOWN_NAME. An SCA that
@@ -47,8 +56,15 @@ struct Instrument {
     std::span<const FieldPoint> field_points(int sca) const;
     std::span<const double> zernikes(int sca) const; // at the SCA's centre
 
+    // Anywhere on the SCA and up to `field_margin_pix` beyond the centres of its outermost pixels,
+    // for stars whose light spills in. Farther off: WFPSF_ERROR_RANGE. One field point on the SCA
+    // serves all of it.
+    static constexpr double field_margin_pix = 512;
+    std::vector<double> zernikes(int sca, double x_pix, double y_pix,
+                                 FieldRule rule = FieldRule::five_points) const;
+
     // With struts, as an SCA sees it through the filter of a band; and without.
-    const SegmentedPupil &pupil(int sca, std::string_view band_name) const;
+    const Pupil &pupil(int sca, std::string_view band_name) const;
     AnnularPupil annular_pupil() const;
 
     double diameter_m() const { return constant("diameter").value; }

@@ -48,6 +48,7 @@ class Aperture {
 };
 
 std::unique_ptr<const Aperture> make_aperture(const SegmentedPupil &pupil);
+std::unique_ptr<const Aperture> make_aperture(const RomanPupil &pupil);
 std::unique_ptr<const Aperture> make_aperture(const AnnularPupil &pupil);
 
 // A mask of transmissions in [0, 1]; pixels are squares of `scale` metres, and pixel position

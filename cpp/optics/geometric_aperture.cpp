@@ -3,6 +3,7 @@
 #include "numerics/nufft.hpp"
 #include "optics/aperture.hpp"
 #include "optics/pupil_nodes.hpp"
+#include "optics/roman_nodes.hpp"
 
 #include <algorithm>
 #include <array>
@@ -119,6 +120,11 @@ template <class Pupil> class GeometricAperture final : public Aperture {
 std::unique_ptr<const Aperture> make_aperture(const SegmentedPupil &pupil) {
     return std::make_unique<GeometricAperture<SegmentedPupil>>(pupil, 2 * pupil.outer.radius,
                                                                pupil.fit_error);
+}
+
+std::unique_ptr<const Aperture> make_aperture(const RomanPupil &pupil) {
+    return std::make_unique<GeometricAperture<std::vector<Cell>>>(lit_cells(lit_region(pupil)),
+                                                                  extent(pupil), pupil.fit_error);
 }
 
 std::unique_ptr<const Aperture> make_aperture(const AnnularPupil &pupil) {

@@ -61,7 +61,8 @@ Psf::Field Psf::make_field(double radius, double tolerance) const {
     Plane<double> intensity(grid.size, grid.size);
     for (int64_t y = 0; y < grid.size; ++y)
         for (int64_t x = 0; x < grid.size; ++x)
-            intensity(x, y) = std::norm(amplitude.value(x, y));
+            intensity(x, y) =
+                std::norm(amplitude.value(x, settings_.mirrored ? grid.size - 1 - y : y));
 
     field.value = filter(intensity.view(), pixel);
     field.nodes = amplitude.nodes;

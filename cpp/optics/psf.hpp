@@ -18,6 +18,9 @@ struct PsfSettings {
     double pixel_scale; // native pixel, radians
     double eps;         // largest error of any pixel, in units of the peak pixel
     double radius;      // half size of the field made in advance, native pixels
+    // The image's y axis runs against the pupil's: Roman's exit pupils are seen mirrored against
+    // the detectors' science coordinates.
+    bool mirrored = false;
 };
 
 // Position in samples of an image, the first one's centre at (0, 0).

@@ -293,6 +293,74 @@ static void test_add_stars(const wfpsf_psf *psf) {
     wfpsf_image_destroy(shared);
 }
 
+/* By band and place: Roman's pupils and aberrations depend on both, C5's on neither. */
+static void test_in_band(const wfpsf_instrument *c5) {
+    double one[17 * 17], other[17 * 17];
+    wfpsf_instrument *roman = NULL;
+    wfpsf_options *options = NULL;
+    wfpsf_psf *science = NULL, *pupil = NULL, *psf = NULL;
+    CHECK_OK(wfpsf_instrument_create("roman-c9", &roman));
+    CHECK_OK(wfpsf_options_create(&options));
+    CHECK_OK(wfpsf_psf_create_in_band(roman, "J129", 18, 10, 4000, 0, options, &science));
+    CHECK_NEAR(number(science, WFPSF_PSF_WAVELENGTH_NM), 1293.6037310202814, 1e-6);
+    CHECK(number(science, WFPSF_PSF_ERROR_ESTIMATE) <= 1e-6);
+    CHECK_OK(wfpsf_options_set_integer(options, WFPSF_OPTION_FRAME, 1));
+    CHECK_OK(wfpsf_psf_create_in_band(roman, "J129", 18, 10, 4000, 0, options, &pupil));
+    draw(science, 17, 17, 1, 8.3, 7.9, one);
+    draw(pupil, 17, 17, 1, 8.3, 16 - 7.9, other);
+    double change = 0;
+    for (int y = 0; y < 17; ++y)
+        for (int x = 0; x < 17; ++x) {
+            CHECK_NEAR(one[y * 17 + x], other[(16 - y) * 17 + x], 1e-14);
+            change = fmax(change, fabs(one[y * 17 + x] - one[(16 - y) * 17 + x]));
+        }
+    CHECK(change > 1e-3); /* the flip is seen */
+    CHECK_OK(wfpsf_options_set_integer(options, WFPSF_OPTION_FIELD_RULE, 1));
+    CHECK_OK(wfpsf_psf_create_in_band(roman, "J129", 18, 1000, 4000, 0, options, &psf));
+    wfpsf_psf_destroy(psf);
+
+    CHECK_OK(wfpsf_psf_create_in_band(c5, "J129", 7, 3, 4000, wavelength_nm, NULL, &psf));
+    draw(psf, 17, 17, 1, 8.3, 7.9, one);
+    wfpsf_psf_destroy(psf);
+    CHECK_OK(wfpsf_psf_create(c5, 7, wavelength_nm, NULL, &psf));
+    draw(psf, 17, 17, 1, 8.3, 7.9, other);
+    CHECK(memcmp(one, other, sizeof one) == 0);
+    wfpsf_psf_destroy(psf);
+
+    const struct {
+        const char *band;
+        int32_t sca;
+        double x, y, wavelength;
+        wfpsf_status status;
+        const char *culprit;
+    } bad[] = {{"J130", 1, 0, 0, 0, WFPSF_ERROR_UNKNOWN_NAME, "J130"},
+               {"J129", 0, 0, 0, 0, WFPSF_ERROR_RANGE, "sca = 0"},
+               {"J129", 19, 0, 0, 0, WFPSF_ERROR_RANGE, "sca = 19"},
+               {"J129", 1, NAN, 0, 0, WFPSF_ERROR_NOT_FINITE, "x = nan"},
+               {"J129", 1, 0, HUGE_VAL, 0, WFPSF_ERROR_NOT_FINITE, "y = inf"},
+               {"J129", 1, 0, 1e4, 0, WFPSF_ERROR_RANGE, "10000"},
+               {"J129", 1, -1e4, 0, 0, WFPSF_ERROR_RANGE, "-10000"},
+               {"J129", 1, 0, 0, -3, WFPSF_ERROR_RANGE, "wavelength_nm = -3"}};
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
+        psf = STALE(wfpsf_psf);
+        CHECK_FAILS(bad[i].status, bad[i].culprit,
+                    wfpsf_psf_create_in_band(roman, bad[i].band, bad[i].sca, bad[i].x, bad[i].y,
+                                             bad[i].wavelength, NULL, &psf));
+        CHECK(psf == NULL);
+    }
+    CHECK_FAILS(WFPSF_ERROR_NULL, "instrument",
+                wfpsf_psf_create_in_band(NULL, "J129", 1, 0, 0, 0, NULL, &psf));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "band",
+                wfpsf_psf_create_in_band(roman, NULL, 1, 0, 0, 0, NULL, &psf));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "out",
+                wfpsf_psf_create_in_band(roman, "J129", 1, 0, 0, 0, NULL, NULL));
+    CHECK_FAILS(WFPSF_ERROR_ARGUMENT, "roman-c9", wfpsf_psf_create(roman, 1, 1300, NULL, &psf));
+    wfpsf_psf_destroy(science);
+    wfpsf_psf_destroy(pupil);
+    wfpsf_options_destroy(options);
+    wfpsf_instrument_destroy(roman);
+}
+
 int main(void) {
     wfpsf_instrument *c5 = NULL;
     CHECK_OK(wfpsf_instrument_create("wfirst-afta-c5", &c5));
@@ -302,6 +370,7 @@ int main(void) {
     test_symmetric(c5);
     test_smallest_eps(c5);
     test_tilt(c5);
+    test_in_band(c5);
     wfpsf_psf *psf = make_psf(c5, 1e-7, 12);
     wfpsf_instrument_destroy(c5); /* the PSF stands on its own */
     test_draw_refuses(psf);

@@ -89,6 +89,7 @@ module wfpsf
         procedure :: destroy => psf_destroy
         procedure :: draw => psf_draw
         procedure :: add_stars => psf_add_stars
+        procedure :: create_in_band => psf_create_in_band
         procedure :: get => psf_get
         final :: psf_finalize
     end type wfpsf_psf
@@ -465,7 +466,8 @@ module wfpsf
     end interface
 
     ! PSFs.
-    private :: psf_create, psf_create_from_mask, psf_destroy, psf_draw, psf_add_stars, psf_get, psf_finalize
+    private :: psf_create, psf_create_from_mask, psf_destroy, psf_draw, psf_add_stars, psf_create_in_band, &
+        psf_get, psf_finalize
     interface
         ! At the centre of detector sca, 1..18. Options: eps, struts, psf_radius, piston_tilt and
         ! extra Zernikes.
@@ -493,6 +495,20 @@ module wfpsf
             integer, intent(out), optional :: stat
             character(len=*), intent(inout), optional :: errmsg
         end subroutine psf_create_from_mask
+
+        ! At position (x, y) of a detector, in its pixels, through the pupil of a band;
+        ! wavelength_nm = 0: the band's effective one.
+        module subroutine psf_create_in_band(self, instrument, band, sca, x, y, wavelength_nm, &
+            options, stat, errmsg)
+            class(wfpsf_psf), intent(inout) :: self
+            type(wfpsf_instrument), intent(in) :: instrument
+            character(len=*), intent(in) :: band
+            integer, intent(in) :: sca
+            real(real64), intent(in) :: x, y, wavelength_nm
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine psf_create_in_band
 
         module subroutine psf_destroy(self)
             class(wfpsf_psf), intent(inout) :: self

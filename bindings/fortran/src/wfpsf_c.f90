@@ -50,6 +50,8 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_option_struts = 110
     integer(c_int32_t), parameter :: wfpsf_option_psf_radius = 120
     integer(c_int32_t), parameter :: wfpsf_option_piston_tilt = 130
+    integer(c_int32_t), parameter :: wfpsf_option_frame = 140
+    integer(c_int32_t), parameter :: wfpsf_option_field_rule = 150
     integer(c_int32_t), parameter :: wfpsf_option_force = 200
     integer(c_int32_t), parameter :: wfpsf_option_ipc_fill = 210
     integer(c_int32_t), parameter :: wfpsf_option_kernel_negative = 220
@@ -474,6 +476,21 @@ module wfpsf_c
             type(c_ptr), intent(out) :: out
             integer(c_int32_t) :: outcome
         end function wfpsf_psf_create
+
+        function wfpsf_psf_create_in_band(instrument, band, sca, x, y, wavelength_nm, options, &
+            out) bind(c, name="wfpsf_psf_create_in_band") result(outcome)
+            import :: c_char, c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            character(kind=c_char), intent(in), optional :: band(*)
+            integer(c_int32_t), value :: sca
+            real(c_double), value :: x
+            real(c_double), value :: y
+            real(c_double), value :: wavelength_nm
+            type(c_ptr), value :: options
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_psf_create_in_band
 
         function wfpsf_psf_create_from_mask(instrument, mask, mask_scale_m, axis_x, axis_y, sca, &
             wavelength_nm, options, out) bind(c, name="wfpsf_psf_create_from_mask") result(outcome)

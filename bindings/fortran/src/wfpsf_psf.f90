@@ -2,7 +2,7 @@
 submodule(wfpsf) wfpsf_psf_procedures
     use, intrinsic :: iso_c_binding, only: c_int64_t
     use wfpsf_c
-    use wfpsf_common, only: report
+    use wfpsf_common, only: c_text, report
     implicit none
 
 contains
@@ -28,6 +28,17 @@ contains
         self%pointer = created
         call report(status, stat, errmsg)
     end procedure psf_create_from_mask
+
+    module procedure psf_create_in_band
+        type(c_ptr) :: created
+        integer :: status
+
+        status = wfpsf_psf_create_in_band(instrument%pointer, c_text(band), sca, x - 1, y - 1, &
+            wavelength_nm, pointer_of(options), created)
+        call self%destroy()
+        self%pointer = created
+        call report(status, stat, errmsg)
+    end procedure psf_create_in_band
 
     module procedure psf_destroy
         call wfpsf_psf_destroy(self%pointer)

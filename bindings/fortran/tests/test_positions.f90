@@ -117,7 +117,11 @@ contains
         call psf%get(wfpsf_psf_peak, peak)
         call expect(all(maxloc(middle) == 17), "brightest pixel")
         call expect(abs(middle(17, 17) - peak) < 0.01_real64 * peak, "its value")
+        call psf%create_in_band(instrument, "J129", 7, 2000.0_real64, 1.0_real64, 1292.0_real64, &
+            options)
         call image%wrap(moved, 1)
+        call psf%draw(17.0_real64, 17.0_real64, 1.0_real64, image)
+        call expect(maxval(abs(moved - middle)) < 1e-14_real64, "one set of aberrations a detector")
         call psf%draw(16.0_real64, 19.0_real64, 1.0_real64, image)
         call expect(maxval(abs(moved(:32, 3:) - middle(2:, :31))) < 2 * eps * peak, "a star moved")
 

@@ -84,6 +84,8 @@ const WFPSF_OPTION_EPS = Int32(100)
 const WFPSF_OPTION_STRUTS = Int32(110)
 const WFPSF_OPTION_PSF_RADIUS = Int32(120)
 const WFPSF_OPTION_PISTON_TILT = Int32(130)
+const WFPSF_OPTION_FRAME = Int32(140)
+const WFPSF_OPTION_FIELD_RULE = Int32(150)
 const WFPSF_OPTION_FORCE = Int32(200)
 const WFPSF_OPTION_IPC_FILL = Int32(210)
 const WFPSF_OPTION_KERNEL_NEGATIVE = Int32(220)
@@ -304,6 +306,13 @@ function wfpsf_psf_create(instrument, sca, wavelength_nm, options, out)
         instrument, sca, wavelength_nm, options, out)
 end
 
+const wfpsf_psf_create_in_band_pointer = Ref(C_NULL)
+function wfpsf_psf_create_in_band(instrument, band, sca, x, y, wavelength_nm, options, out)
+    return ccall(wfpsf_psf_create_in_band_pointer[], Int32, (Ptr{Cvoid}, Cstring, Int32, Float64,
+        Float64, Float64, Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        instrument, band, sca, x, y, wavelength_nm, options, out)
+end
+
 const wfpsf_psf_create_from_mask_pointer = Ref(C_NULL)
 function wfpsf_psf_create_from_mask(instrument, mask, mask_scale_m, axis_x, axis_y, sca,
     wavelength_nm, options, out)
@@ -515,6 +524,7 @@ const pointers = [
     :wfpsf_instrument_throughput => wfpsf_instrument_throughput_pointer,
     :wfpsf_instrument_zernikes => wfpsf_instrument_zernikes_pointer,
     :wfpsf_psf_create => wfpsf_psf_create_pointer,
+    :wfpsf_psf_create_in_band => wfpsf_psf_create_in_band_pointer,
     :wfpsf_psf_create_from_mask => wfpsf_psf_create_from_mask_pointer,
     :wfpsf_psf_destroy => wfpsf_psf_destroy_pointer,
     :wfpsf_psf_draw => wfpsf_psf_draw_pointer,

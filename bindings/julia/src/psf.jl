@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 
 const PSF_PROPERTIES = constants_of("WFPSF_PSF_")
-const PSF_OPTIONS = (:eps, :struts, :psf_radius, :piston_tilt, :zernikes)
+const PSF_OPTIONS = (:eps, :struts, :psf_radius, :piston_tilt, :frame, :field_rule, :zernikes)
 const STAR_OPTIONS = (:threads, :force)
 
 """
     PSF(instrument, sca, wavelength_nm; options...)
+    PSF(instrument, band, sca, x, y; wavelength_nm = 0, options...)
     PSF(instrument, sca, wavelength_nm, mask; mask_scale_m, axis_x, axis_y, options...)
     PSF(f, ...)
 
@@ -17,7 +18,12 @@ Options: `eps` (largest error of any pixel, in units of the stamp's peak), `stru
 (native pixels made in advance), `piston_tilt`, and `zernikes`, a vector of extra aberrations in
 Noll's order (waves rms at the instrument's reference wavelength).
 
-The second form takes the pupil from an image of transmissions with pixels of `mask_scale_m` metres
+The second form is the PSF at (x, y), pixels of the detector (the first one's centre is (1, 1)), and
+takes the pupil that the band is used with; `"roman-c9"` needs it. `wavelength_nm = 0` is the band's
+effective wavelength. Its options also are `frame` (0: science coordinates, 1: exit pupil) and
+`field_rule` (0: all field points are met, 1: bilinear between the corners).
+
+The third form takes the pupil from an image of transmissions with pixels of `mask_scale_m` metres
 and the optical axis at (`axis_x`, `axis_y`), the centre of the mask's first pixel being (1, 1). It
 takes a second for a mask of 4096 × 4096.
 
@@ -33,6 +39,17 @@ mutable struct PSF <: Handle
         pointer = with_options(PSF_OPTIONS, keywords) do options
             created() do out
                 LibWfpsf.wfpsf_psf_create(instrument, sca, wavelength_nm, options, out)
+            end
+        end
+        return finalizer(close, new(pointer))
+    end
+
+    function PSF(instrument::Instrument, band::AbstractString, sca::Integer, x::Real, y::Real;
+                 wavelength_nm::Real = 0, keywords...)
+        pointer = with_options(PSF_OPTIONS, keywords) do options
+            created() do out
+                LibWfpsf.wfpsf_psf_create_in_band(instrument, band, sca, x - 1, y - 1,
+                                                  wavelength_nm, options, out)
             end
         end
         return finalizer(close, new(pointer))

@@ -26,6 +26,14 @@ pixels = draw(perfect, 15, 18; oversampling = 3).pixels
 moved = draw(psf, 19, 20; x = 8 + 4, y = 9 + 2, oversampling = 3, flux = 2)
 @test maximum(abs, moved.pixels[5:19, 3:19] - star.pixels) < 3e-5 * maximum(star.pixels)
 
+# Roman's PSFs depend on band and place; the two frames differ by a flip of y.
+roman = Instrument("roman-c9")
+science, pupil = (PSF(roman, "H158", 3, 12.5, 4000; frame = frame, eps = 1e-5) for frame in 0:1)
+@test draw(science, 21, 21).pixels ≈ reverse(draw(pupil, 21, 21).pixels, dims = 2)
+@test science.wavelength_nm ≈ band(roman, "H158"; rule = :tabulated).effective_nm
+@test status_of(() -> PSF(roman, 3, 1500)) == LibWfpsf.WFPSF_ERROR_ARGUMENT
+@test status_of(() -> PSF(roman, "H158", 3, 1, 9999)) == LibWfpsf.WFPSF_ERROR_RANGE
+
 # Stars are added to what is there, wherever they lie.
 field = Image(Float64, 41, 37)
 add_stars!(field, psf, [12.3, 12.3, -500], 1:3:7, [3, 1, 1e9]; threads = 2)

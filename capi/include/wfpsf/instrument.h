@@ -3,7 +3,8 @@
  * @file instrument.h
  * Instruments: the published figures of a telescope and its detectors, compiled in.
  *
- * Known: "wfirst-afta-c5", the paper's (WFIRST-AFTA Cycle 5, July 2015).
+ * Known: "wfirst-afta-c5", the paper's (WFIRST-AFTA Cycle 5, July 2015), and "roman-c9" (Roman
+ * Wide Field Instrument, Cycle 9).
  * Thread-safety: an instrument is immutable; every function here is thread-safe.
  */
 #ifndef WFPSF_INSTRUMENT_H
@@ -21,14 +22,14 @@ typedef struct wfpsf_instrument wfpsf_instrument;
 enum {
     /** The tabulated throughput: first and last zero; mean of the piecewise linear curve. */
     WFPSF_BAND_TABULATED = 1,
-    /** The same table thinned as GalSim 1.3.0 does: the figures of the paper's Table 1. */
+    /** The same table thinned as GalSim 1.3.0 does: for C5, the figures of the paper's Table 1. */
     WFPSF_BAND_PAPER = 2
 };
 
 /**
  * An instrument by name.
  *
- * Given:    name  "wfirst-afta-c5"
+ * Given:    name  "wfirst-afta-c5" or "roman-c9"
  * Returned: out   the handle; NULL on failure
  * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME, ERROR_NO_MEMORY
  */

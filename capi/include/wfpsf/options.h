@@ -38,6 +38,10 @@ enum { WFPSF_OPTION_REAL = 1, WFPSF_OPTION_INTEGER = 2 };
       "half size of the field that a PSF makes in advance, native pixels")                         \
     X(PISTON_TILT, 130, INTEGER, 0, 0, 1,                                                          \
       "1: keep the instrument's Zernike terms 1 to 3, which are dropped otherwise")                \
+    X(FRAME, 140, INTEGER, 0, 0, 1,                                                                \
+      "axes of a PSF's image: 0, the detector's science coordinates; 1, those of the exit pupil")  \
+    X(FIELD_RULE, 150, INTEGER, 0, 0, 1,                                                           \
+      "aberrations between field points: 0, all points are met; 1, bilinear between the corners")  \
     X(FORCE, 200, INTEGER, 0, 0, 1,                                                                \
       "1: apply an effect even to an image that records it as applied")                            \
     X(IPC_FILL, 210, REAL, 0, -1.7976931348623157e308, 1.7976931348623157e308,                     \

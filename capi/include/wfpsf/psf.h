@@ -40,7 +40,8 @@ enum { WFPSF_PSF_PROPERTY_LIST(WFPSF_PSF_PROPERTY_ENUM) };
 #undef WFPSF_PSF_PROPERTY_ENUM
 
 /**
- * The monochromatic effective PSF at the centre of a detector.
+ * The monochromatic effective PSF at the centre of a detector, for an instrument with one pupil
+ * ("wfirst-afta-c5").
  *
  * Given:    instrument     may be freed afterwards
  *           sca            1..18
@@ -48,11 +49,34 @@ enum { WFPSF_PSF_PROPERTY_LIST(WFPSF_PSF_PROPERTY_ENUM) };
  *           options        EPS, STRUTS, PSF_RADIUS, PISTON_TILT and extra Zernikes
  * Returned: out            the handle; NULL on failure
  * Status:   ERROR_NULL, ERROR_RANGE, ERROR_NOT_FINITE, ERROR_NO_MEMORY;
+ *           ERROR_ARGUMENT if the pupil depends on the band (wfpsf_psf_create_in_band());
  *           WARNING_NOT_CERTIFIED if the error estimate stays above EPS
  */
 WFPSF_EXPORT wfpsf_status wfpsf_psf_create(const wfpsf_instrument *instrument, int32_t sca,
                                            double wavelength_nm, const wfpsf_options *options,
                                            wfpsf_psf **out);
+
+/**
+ * The same anywhere on a detector, through the pupil that a band is used with. Needed for
+ * "roman-c9", whose pupils and aberrations depend on both; "wfirst-afta-c5" has one pupil and one
+ * set of aberrations a detector.
+ *
+ * Roman's published pupils and aberrations are those of the exit pupil. By default its images are
+ * in science coordinates, which differ by a flip of y (and what comes out of GalSim up to 2.8.4 is
+ * in the exit pupil's: FRAME 1). C5 images are in the orientation of its mask, as in the paper, in
+ * both.
+ *
+ * Given:    band           such as "J129"
+ *           x, y           position on the detector, pixels, the first one's centre at (0, 0); up
+ * to 512 pixels beyond the detector's edge wavelength_nm  100..100000; 0: the band's effective
+ * wavelength, tabulated others         as for wfpsf_psf_create(), and FRAME, FIELD_RULE Returned:
+ * out            the handle; NULL on failure Status:   as for wfpsf_psf_create();
+ * ERROR_UNKNOWN_NAME
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_psf_create_in_band(const wfpsf_instrument *instrument,
+                                                   const char *band, int32_t sca, double x,
+                                                   double y, double wavelength_nm,
+                                                   const wfpsf_options *options, wfpsf_psf **out);
 
 /**
  * The same with the pupil given as a mask: every pixel a square of that transmission, with the

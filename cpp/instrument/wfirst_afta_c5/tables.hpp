@@ -12,6 +12,5 @@ std::span<const Constant> constants();
 std::span<const Band> bands();
 std::span<const FieldPoint> field_points();
 SegmentedPupil pupil();
-IpcTaps ipc_kernel();
 
 } // namespace wfpsf::wfirst_afta_c5

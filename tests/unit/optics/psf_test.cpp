@@ -21,6 +21,10 @@ const Instrument &c5() {
     return Instrument::get("wfirst-afta-c5");
 }
 
+const SegmentedPupil &c5_pupil() {
+    return std::get<SegmentedPupil>(c5().pupil(7, "J129"));
+}
+
 Wavefront flat() {
     return Wavefront({}, 1.18);
 }
@@ -90,14 +94,14 @@ TEST(Psf, AberratedSegmentsMeetABruteForceSumAtEveryTolerance) {
                           Case{7, 1577.05e-9, 1.5, "H158 SCA 7, 1.5 waves of defocus"}}) {
         const Wavefront wavefront = sca_wavefront(c.sca, c.wavelength, c.defocus);
         const Intensity truth =
-            brute_force(pupil_nodes(c5().common_pupil, 180, 1e-14), wavefront, c.wavelength);
+            brute_force(pupil_nodes(c5_pupil(), 180, 1e-14), wavefront, c.wavelength);
         const double star_x = 15.75, star_y = 16.2;
         const std::vector<Probe> probes =
             probes_of(truth, star_x, star_y, {{16, 16}, {15, 17}, {0, 32}, {32, 1}});
         for (const double eps : {1e-2, 1e-4, 1e-6, 1e-8, 1e-10})
-            expect_within_eps(Psf(make_aperture(c5().common_pupil), wavefront,
-                                  {c.wavelength, pixel_scale, eps, 17.5}),
-                              star_x, star_y, probes, c.name);
+            expect_within_eps(
+                Psf(make_aperture(c5_pupil()), wavefront, {c.wavelength, pixel_scale, eps, 17.5}),
+                star_x, star_y, probes, c.name);
     }
 }
 
@@ -124,7 +128,7 @@ TEST(Psf, SquareMaskMeetsItsSincs) {
 }
 
 TEST(Psf, SamplingOffsetsAndTypesAgree) {
-    const Psf psf(make_aperture(c5().common_pupil), sca_wavefront(7, 1292.11e-9),
+    const Psf psf(make_aperture(c5_pupil()), sca_wavefront(7, 1292.11e-9),
                   {1292.11e-9, pixel_scale, 1e-9, 8});
     // Native pixels are every N-th sample of an oversampled stamp, times N^2.
     const int64_t N = 5;
@@ -149,7 +153,7 @@ TEST(Psf, SamplingOffsetsAndTypesAgree) {
 
 // Stars in a heap, on and beyond the borders, against a stamp of each drawn by itself.
 TEST(Psf, StarsAreAddedWithClippingAndAnyNumberOfThreads) {
-    const Psf psf(make_aperture(c5().common_pupil), sca_wavefront(7, 1292.11e-9),
+    const Psf psf(make_aperture(c5_pupil()), sca_wavefront(7, 1292.11e-9),
                   {1292.11e-9, pixel_scale, 1e-8, 6});
     const std::vector<Star> stars = {{10.3, 12.9, 100}, {10.3, 12.9, 50}, {-0.5, 20, 70},
                                      {39, -5.6, 30},    {-7, 3, 1e6},     {1e300, 0, 1},
@@ -186,7 +190,7 @@ TEST(Psf, StarsAreAddedWithClippingAndAnyNumberOfThreads) {
 
 TEST(Psf, EqualCallsGiveEqualBits) {
     const auto draw = [] {
-        const Psf psf(make_aperture(c5().common_pupil), sca_wavefront(3, 1577.05e-9),
+        const Psf psf(make_aperture(c5_pupil()), sca_wavefront(3, 1577.05e-9),
                       {1577.05e-9, pixel_scale, 1e-6, 8});
         Plane<double> stamp(16, 16);
         psf.draw(7.1, 7.9, 1, 1, stamp.view());

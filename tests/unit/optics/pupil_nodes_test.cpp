@@ -15,7 +15,7 @@ constexpr double pi = std::numbers::pi;
 using Complex = std::complex<double>;
 
 const SegmentedPupil &c5_pupil() {
-    return Instrument::get("wfirst-afta-c5").common_pupil;
+    return std::get<SegmentedPupil>(Instrument::get("wfirst-afta-c5").pupil(7, "J129"));
 }
 
 Complex transform(const PupilNodes &nodes, double kx, double ky) {
