@@ -26,7 +26,8 @@ struct RowSums {
 };
 
 RowSums interpolating_sums(const BandlimitedInterpolator &interpolator, const Positions &p) {
-    const int64_t phases = p.denominator / std::gcd(p.numerator, p.denominator);
+    const int64_t phases =
+        std::max<int64_t>(1, p.denominator / std::gcd(p.numerator, p.denominator));
     RowSums sums;
     sums.phase = p.first % phases;
     std::vector<int64_t> first_of_phase;
