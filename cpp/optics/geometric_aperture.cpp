@@ -3,7 +3,7 @@
 #include "numerics/nufft.hpp"
 #include "optics/aperture.hpp"
 #include "optics/pupil_nodes.hpp"
-#include "optics/roman_nodes.hpp"
+#include "optics/roman_region.hpp"
 
 #include <algorithm>
 #include <array>

@@ -124,7 +124,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_psf_draw(const wfpsf_psf *psf, double x, double 
  * Given:    count       of stars, >= 0
  *           x, y, flux  count numbers each, all finite
  *           options     THREADS, which changes the time and no bit of the result; FORCE
- * Returned: image       pixels and record; untouched on failure
+ * Returned: image       pixels and record; untouched on failure, unless memory runs out on the way
  * Status:   ERROR_NULL, ERROR_SIZE, ERROR_NOT_FINITE, ERROR_ALREADY_APPLIED, ERROR_ARGUMENT
  * (another pixel scale), ERROR_NO_MEMORY
  */

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "error/error.hpp"
+#include "expect_failure.hpp"
 #include "instrument/instrument.hpp"
 
-#include <functional>
 #include <gtest/gtest.h>
 #include <limits>
 #include <string>
@@ -12,17 +11,6 @@ namespace {
 
 const Instrument &c5() {
     return Instrument::get("wfirst-afta-c5");
-}
-
-void expect_failure(const std::function<void()> &call, wfpsf_status status,
-                    const std::string &line) {
-    try {
-        call();
-        ADD_FAILURE() << "no failure: " << line;
-    } catch (const Error &error) {
-        EXPECT_EQ(error.status(), status);
-        EXPECT_EQ(std::string(error.what()).substr(0, line.size()), line);
-    }
 }
 
 TEST(Instrument, IsFoundByItsName) {

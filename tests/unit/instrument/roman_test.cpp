@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "error/error.hpp"
+#include "expect_failure.hpp"
 #include "instrument/instrument.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <gtest/gtest.h>
 #include <limits>
 #include <string>
@@ -18,17 +17,6 @@ const Instrument &c9() {
 }
 const RomanPupil &pupil(int sca, const char *band) {
     return std::get<RomanPupil>(c9().pupil(sca, band));
-}
-
-void expect_failure(const std::function<void()> &call, wfpsf_status status,
-                    const std::string &line) {
-    try {
-        call();
-        ADD_FAILURE() << "no failure: " << line;
-    } catch (const Error &error) {
-        EXPECT_EQ(error.status(), status);
-        EXPECT_EQ(std::string(error.what()).substr(0, line.size()), line);
-    }
 }
 
 TEST(Roman, HasThePublishedConstants) {

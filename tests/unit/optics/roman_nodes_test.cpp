@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "instrument/instrument.hpp"
-#include "optics/roman_nodes.hpp"
+#include "optics/roman_region.hpp"
 
 #include <algorithm>
 #include <array>
@@ -20,6 +20,10 @@ using Complex = std::complex<double>;
 
 const RomanPupil &pupil(int sca, const char *band) {
     return std::get<RomanPupil>(Instrument::get("roman-c9").pupil(sca, band));
+}
+
+PupilNodes pupil_nodes(const RomanPupil &pupil, double wavenumber, double eps) {
+    return pupil_nodes(lit_cells(lit_region(pupil)), wavenumber, eps);
 }
 
 Complex transform(const PupilNodes &nodes, double kx, double ky) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "optics/roman_nodes.hpp"
+#include "optics/roman_region.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -120,10 +120,6 @@ LitRegion lit_region(const RomanPupil &pupil) {
 double extent(const RomanPupil &pupil) {
     const Oval primary = Map(pupil.primary).image(Circle{0, 0, 1});
     return 2 * std::max(primary.half_width, std::hypot(primary.shear, primary.half_height));
-}
-
-PupilNodes pupil_nodes(const RomanPupil &pupil, double wavenumber, double eps) {
-    return pupil_nodes(lit_cells(lit_region(pupil)), wavenumber, eps);
 }
 
 } // namespace wfpsf
