@@ -21,7 +21,8 @@ constexpr double rounding = 4e-15;
 
 } // namespace
 
-BandlimitedInterpolator::BandlimitedInterpolator(double bandwidth, double eps) {
+BandlimitedInterpolator::BandlimitedInterpolator(double bandwidth, double eps)
+    : bandwidth_(bandwidth) {
     if (!(bandwidth > 0 && bandwidth < 0.5))
         fail(WFPSF_ERROR_RANGE, "bandwidth = %g: must lie between 0 and 1/2 cycles per sample",
              bandwidth);

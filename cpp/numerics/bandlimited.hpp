@@ -17,6 +17,7 @@ class BandlimitedInterpolator {
   public:
     BandlimitedInterpolator(double bandwidth, double eps);
 
+    double bandwidth() const { return bandwidth_; }
     int half_width() const { return half_width_; }
     int taps() const { return 2 * half_width_; }
     double error() const { return error_; }
@@ -33,6 +34,7 @@ class BandlimitedInterpolator {
     std::vector<double> averaging_filter(double width) const;
 
   private:
+    double bandwidth_;
     int half_width_;
     double beta_, error_;
 };

@@ -14,73 +14,18 @@ namespace wfpsf {
 
 namespace {
 
-// The intensity holds no frequency above diameter / wavelength. Sampling it at twice Nyquist's rate
-// or somewhat finer keeps the filters short; a whole number of samples a native pixel lets all
-// pixels of a stamp share one filter.
-constexpr double widest_band = 0.25; // cycles per sample
-
 constexpr double largest_reach = 4096; // native pixels
 
 } // namespace
 
 Psf::Psf(std::shared_ptr<const Aperture> aperture, const Wavefront &wavefront,
          const PsfSettings &settings)
-    : aperture_(std::move(aperture)), wavefront_(wavefront), settings_(settings),
-      per_pixel_(static_cast<int64_t>(std::ceil(aperture_->diameter() * settings.pixel_scale /
-                                                (widest_band * settings.wavelength)))),
-      field_(make_field(settings.radius)) {}
+    : optics_{std::move(aperture), wavefront, settings.wavelength},
+      light_(monochromatic(settings.wavelength)), settings_(settings),
+      field_(std::move(make_fields(optics_, {&light_, 1}, settings_, settings_.radius)[0])) {}
 
-// All errors arise in units of the unaberrated peak before the pixel's average; eps counts in the
-// stamp's brightest pixel. Their ratio is guessed, and made up for where the guess was too good (an
-// aberrated wavefront): once more is the rule, several times for the hardest ones.
-Psf::Field Psf::make_field(double radius) const {
-    const double pixel = settings_.pixel_scale / settings_.wavelength;
-    const double ratio = 2 * (1 + 1.7 * aperture_->area() * pixel * pixel);
-    double tolerance = settings_.eps / ratio;
-    for (int attempt = 0;; ++attempt) {
-        Field field = make_field(radius, tolerance);
-        if (field.error <= settings_.eps || attempt == 4 || tolerance < 1e-15)
-            return field;
-        tolerance *= 0.7 * settings_.eps / field.error;
-    }
-}
-
-// `tolerance` in units of the unaberrated peak.
-Psf::Field Psf::make_field(double radius, double tolerance) const {
-    // The filters for the pixel's average and for the interpolation err along two axes each.
-    const double bandwidth = aperture_->diameter() * grid_step() / settings_.wavelength;
-    Field field(BandlimitedInterpolator(bandwidth, tolerance / 8));
-    const auto per_pixel = static_cast<double>(per_pixel_);
-    const std::vector<double> pixel = field.interpolator.averaging_filter(per_pixel);
-    const auto margin = static_cast<int64_t>(pixel.size()) / 2;
-    const auto reach =
-        static_cast<int64_t>(std::ceil(radius * per_pixel)) + field.interpolator.half_width();
-    const FocalGrid grid{2 * (reach + margin) + 1, grid_step()};
-    const Amplitude amplitude =
-        aperture_->amplitude(wavefront_, settings_.wavelength, grid, tolerance / 2);
-    Plane<double> intensity(grid.size, grid.size);
-    for (int64_t y = 0; y < grid.size; ++y)
-        for (int64_t x = 0; x < grid.size; ++x)
-            intensity(x, y) =
-                std::norm(amplitude.value(x, settings_.mirrored ? grid.size - 1 - y : y));
-
-    field.value = filter(intensity.view(), pixel);
-    field.nodes = amplitude.nodes;
-    // Fraction of the light in a pixel: its solid angle times |A|^2 / (area lambda^2).
-    const double wavelengths = settings_.pixel_scale / settings_.wavelength;
-    const double scale = wavelengths * wavelengths / aperture_->area();
-    for (int64_t y = 0; y < field.value.ny(); ++y)
-        for (int64_t x = 0; x < field.value.nx(); ++x) {
-            field.value(x, y) *= scale;
-            field.peak = std::max(field.peak, field.value(x, y));
-        }
-    // The unaberrated peak also bounds the integral of the spectrum that the filters' errors
-    // multiply. A stamp's brightest pixel may be half the largest possible one.
-    const double ratio = 2 * scale * aperture_->area() * aperture_->area() / field.peak;
-    field.error = ratio * (amplitude.error + 4 * field.interpolator.error());
-    field.model_error = ratio * amplitude.model_error;
-    return field;
-}
+Psf::Psf(const Optics &optics, Light light, const PsfSettings &settings, Field field)
+    : optics_(optics), light_(std::move(light)), settings_(settings), field_(std::move(field)) {}
 
 template <class T>
 void Psf::draw(double x, double y, double flux, int64_t oversampling, View<T> out) const {
@@ -94,7 +39,8 @@ void Psf::draw(double x, double y, double flux, int64_t oversampling, View<T> ou
              "star at (%g, %g): farther than %g native pixels from a pixel of the image", x, y,
              largest_reach);
     if (reach > settings_.radius)
-        draw_from(make_field(reach), {x, y, flux}, oversampling, 0, 0, out);
+        draw_from(make_fields(optics_, {&light_, 1}, settings_, reach)[0], {x, y, flux},
+                  oversampling, 0, 0, out);
     else
         draw_from(field_, {x, y, flux}, oversampling, 0, 0, out);
 }
@@ -106,8 +52,8 @@ void Psf::draw_from(const Field &field, const Star &star, int64_t oversampling, 
     const auto n = static_cast<double>(oversampling);
     const double centre = static_cast<double>(field.value.nx() - 1) / 2;
     const auto positions = [&](double place, int64_t first, int64_t count) {
-        return Positions{centre - place * static_cast<double>(per_pixel_) / n, first, count,
-                         per_pixel_, oversampling};
+        return Positions{centre - place * static_cast<double>(field.per_pixel) / n, first, count,
+                         field.per_pixel, oversampling};
     };
     resample(field.value.view(), field.interpolator, positions(star.x, first_x, out.nx),
              positions(star.y, first_y, out.ny), star.flux / (n * n), out);
@@ -163,6 +109,15 @@ void Psf::add_to_rows(std::span<const Star> stars, int64_t oversampling, View<T>
             for (int64_t x = x0; x <= x1; ++x)
                 image(x, y) += static_cast<T>(stamp(x - x0, y - y0));
     }
+}
+
+std::vector<Psf> make_psfs(const Optics &optics, std::span<const Light> lights,
+                           const PsfSettings &settings, const Progress &progress) {
+    std::vector<Field> fields = make_fields(optics, lights, settings, settings.radius, progress);
+    std::vector<Psf> psfs;
+    for (size_t s = 0; s < lights.size(); ++s)
+        psfs.emplace_back(optics, lights[s], settings, std::move(fields[s]));
+    return psfs;
 }
 
 template void Psf::add(std::span<const Star>, int64_t, View<float>, int) const;

@@ -136,16 +136,28 @@ template void resample(View<const double>, const BandlimitedInterpolator &, cons
 template void resample(View<const double>, const BandlimitedInterpolator &, const Positions &,
                        const Positions &, double, View<double>);
 
-Plane<double> filter(View<const double> grid, const std::vector<double> &taps) {
-    const auto shrunk = [&taps](int64_t n) {
+Plane<double> filtered(View<const double> grid, const SeparableFilter &filter, int64_t stride) {
+    const auto shrunk = [stride](int64_t n, const std::vector<double> &taps) {
         RowSums sums;
         sums.weights = {taps};
-        sums.first.resize(static_cast<size_t>(n - static_cast<int64_t>(taps.size()) + 1));
-        std::iota(sums.first.begin(), sums.first.end(), 0);
+        for (int64_t first = 0; first + static_cast<int64_t>(taps.size()) <= n; first += stride)
+            sums.first.push_back(first);
         return sums;
     };
-    const Plane<double> half = sum_rows_transposed(grid, shrunk(grid.ny), 0, grid.nx);
-    return sum_rows_transposed(half.view(), shrunk(grid.nx), 0, half.nx());
+    Plane<double> sum;
+    for (const SeparableFilter::Term &term : filter.terms) {
+        const Plane<double> half = sum_rows_transposed(grid, shrunk(grid.ny, term.y), 0, grid.nx);
+        Plane<double> product =
+            sum_rows_transposed(half.view(), shrunk(grid.nx, term.x), 0, half.nx());
+        if (sum.nx() == 0) {
+            sum = std::move(product);
+            continue;
+        }
+        for (int64_t y = 0; y < sum.ny(); ++y)
+            for (int64_t x = 0; x < sum.nx(); ++x)
+                sum(x, y) += product(x, y);
+    }
+    return sum;
 }
 
 } // namespace wfpsf

@@ -4,6 +4,7 @@
 
 #include "image/view.hpp"
 #include "numerics/bandlimited.hpp"
+#include "optics/blur.hpp"
 
 #include <vector>
 
@@ -22,8 +23,8 @@ template <class T>
 void resample(View<const double> grid, const BandlimitedInterpolator &interpolator,
               const Positions &x, const Positions &y, double scale, View<T> out);
 
-// The grid filtered along both axes by a symmetric filter of 2m + 1 taps; smaller by m on each
-// side.
-Plane<double> filter(View<const double> grid, const std::vector<double> &taps);
+// The grid filtered along both axes; smaller by the filter's half width on each side. With a
+// stride, only every so many-th sample of that.
+Plane<double> filtered(View<const double> grid, const SeparableFilter &filter, int64_t stride = 1);
 
 } // namespace wfpsf

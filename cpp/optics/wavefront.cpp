@@ -62,6 +62,16 @@ Wavefront::Wavefront(std::span<const double> coefficients, double radius) : radi
     }
 }
 
+Wavefront Wavefront::scaled(double factor) const {
+    Wavefront copy = *this;
+    for (Order &order : copy.orders_)
+        for (std::vector<double> *polynomial : {&order.cosine, &order.sine})
+            for (double &a : *polynomial)
+                a *= factor;
+    copy.slope_bound_ *= std::abs(factor);
+    return copy;
+}
+
 double Wavefront::operator()(double x, double y) const {
     const std::complex<double> z(x / radius_, y / radius_);
     const double t = std::norm(z);

@@ -18,6 +18,9 @@ class Wavefront {
 
     double operator()(double x, double y) const;
 
+    // All of it `factor` times.
+    Wavefront scaled(double factor) const;
+
     // Never below the steepest slope |grad W| on the circle of the given radius (waves per metre).
     double slope_bound() const { return slope_bound_; }
 

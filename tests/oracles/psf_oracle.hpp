@@ -50,6 +50,36 @@ inline Intensity brute_force(const PupilNodes &nodes, const Wavefront &wavefront
     };
 }
 
+// in_pixel() of brute_force(), by products of waves along x and along y.
+inline double brute_force_in_pixel(const PupilNodes &nodes, const Wavefront &wavefront,
+                                   double wavelength, double x, double y, double pixel_scale,
+                                   int points) {
+    using Complex = std::complex<double>;
+    const GaussLegendre rule(points);
+    const size_t n = rule.x.size();
+    const double k = 2 * pi / wavelength;
+    std::vector<Complex> amplitude(n * n), along_x(n), along_y(n);
+    double area = 0;
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        area += nodes.weight[i];
+        const double phase = 2 * pi * wavefront(nodes.x[i], nodes.y[i]);
+        for (size_t j = 0; j < n; ++j) {
+            const double offset = rule.x[j] * pixel_scale / 2;
+            along_x[j] = std::polar(1.0, k * nodes.x[i] * (x + offset));
+            along_y[j] = std::polar(nodes.weight[i], k * nodes.y[i] * (y + offset) + phase);
+        }
+        for (size_t j = 0; j < n * n; ++j) {
+            const Complex &a = along_x[j % n], &b = along_y[j / n];
+            amplitude[j] += Complex(a.real() * b.real() - a.imag() * b.imag(),
+                                    a.real() * b.imag() + a.imag() * b.real());
+        }
+    }
+    double sum = 0;
+    for (size_t j = 0; j < n * n; ++j)
+        sum += rule.w[j % n] * rule.w[j / n] / 4 * std::norm(amplitude[j]);
+    return sum * pixel_scale * pixel_scale / (area * wavelength * wavelength);
+}
+
 // The obscured Airy pattern; at the angles of interest the argument is never exactly zero.
 inline Intensity airy(const AnnularPupil &pupil, double wavelength) {
     return [=](double x, double y) {

@@ -49,6 +49,8 @@ typedef int32_t wfpsf_status;
     X(ERROR_MOMENTS_OUTSIDE, -340, "the centroid left the image")                                  \
     X(ERROR_MOMENTS_STALLED, -350, "the iteration stands at a point that is not a maximum")        \
     X(ERROR_SIZE_NOT_REACHED, -400, "the image does not hold the fraction of light asked for")     \
+    X(ERROR_CANCELLED, -500, "the caller's progress function asked to stop")                       \
+    X(ERROR_MEMORY_LIMIT, -510, "the work needs more memory than the option MEMORY_LIMIT allows")  \
     X(ERROR_NO_MEMORY, -900, "memory ran out")                                                     \
     X(ERROR_INTERNAL, -910, "an unexpected failure inside the library: please report it")          \
     X(ERROR_ABI, -920, "the program was compiled for another ABI than the loaded library's")

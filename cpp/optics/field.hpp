@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The field of light that stamps are drawn from: the diffraction image of a source of any spectrum,
+// averaged over the native pixel and blurred, on a grid in step with the native pixels
+// (section 4.1 of the paper; DESIGN: no folding, no image interpolant).
+#pragma once
+
+#include "error/progress.hpp"
+#include "image/view.hpp"
+#include "numerics/bandlimited.hpp"
+#include "optics/aperture.hpp"
+#include "optics/blur.hpp"
+#include "optics/spectrum.hpp"
+#include "optics/wavefront.hpp"
+
+#include <memory>
+#include <span>
+#include <vector>
+
+namespace wfpsf {
+
+// How light reaches the focal plane: through a pupil, with a wavefront error of
+// wavefront * wavelength metres.
+struct Optics {
+    std::shared_ptr<const Aperture> aperture;
+    Wavefront wavefront; // waves at `wavelength`
+    double wavelength;   // m
+};
+
+struct PsfSettings {
+    double wavelength;  // m; of the wavefront, and of a PSF of one colour
+    double pixel_scale; // native pixel, radians
+    double eps;         // largest error of any pixel, in units of the peak pixel
+    double radius;      // half size of the field made in advance, native pixels
+    // The image's y axis runs against the pupil's: Roman's exit pupils are seen mirrored against
+    // the detectors' science coordinates.
+    bool mirrored = false;
+    Covariance blur = {}; // of a Gaussian, native pixels^2: jitter and charge diffusion
+};
+
+// The part of a PSF that has one wavelength.
+struct Component {
+    double wavelength, weight; // m; of the light detected
+};
+
+struct Field {
+    explicit Field(const BandlimitedInterpolator &of) : interpolator(of) {}
+    BandlimitedInterpolator interpolator;
+    int64_t per_pixel = 1; // grid samples a native pixel
+    Plane<double> value;   // fraction of the light in a native pixel centred on each grid point
+    std::vector<Component> components;
+    int64_t nodes = 0;      // of the pupil, over all wavelengths
+    int64_t grid_size = 0;  // of the diffraction image that this was filtered from
+    double peak = 0;        // largest fraction of the light in one pixel
+    double error = 0;       // estimate of the numerical error, of the peak pixel
+    double model_error = 0; // of the pupil's description, likewise
+};
+
+// One field a light, all from the same monochromatic images, reaching `radius` native pixels.
+// Wavelengths are added until the estimate meets settings.eps, or it is clear that it cannot.
+std::vector<Field> make_fields(const Optics &optics, std::span<const Light> lights,
+                               const PsfSettings &settings, double radius,
+                               const Progress &progress = {});
+
+} // namespace wfpsf
