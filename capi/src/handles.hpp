@@ -21,6 +21,10 @@ struct wfpsf_instrument {
     const wfpsf::Instrument &instrument;
 };
 
+struct wfpsf_sed {
+    wfpsf::Sed sed;
+};
+
 struct wfpsf_psf {
     wfpsf::Psf psf;
     double wavelength_nm, pixel_scale_arcsec; // as given, without a rounding
@@ -44,6 +48,9 @@ bool flag(const wfpsf_options *options, int32_t key);
 
 // The extra Zernike coefficients; none if options is NULL.
 const std::vector<double> &extra_zernikes(const wfpsf_options *options);
+
+// The caller's progress function; one that does nothing if there is none.
+Progress progress_of(const wfpsf_options *options);
 
 PixelType pixel_type_of(int32_t pixel_type);
 

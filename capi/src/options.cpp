@@ -34,6 +34,8 @@ size_t index_of(int32_t key) {
 struct wfpsf_options {
     std::array<double, option_count> values;
     std::vector<double> zernikes;
+    wfpsf_progress progress;
+    void *progress_user;
 };
 
 namespace wfpsf {
@@ -68,6 +70,14 @@ bool flag(const wfpsf_options *options, int32_t key) {
 const std::vector<double> &extra_zernikes(const wfpsf_options *options) {
     static const std::vector<double> none;
     return options ? options->zernikes : none;
+}
+
+Progress progress_of(const wfpsf_options *options) {
+    if (!options || !options->progress)
+        return {};
+    return {[call = options->progress, user = options->progress_user](double part) {
+        return call(part, user) == 0;
+    }};
 }
 
 } // namespace wfpsf
@@ -127,6 +137,15 @@ wfpsf_status wfpsf_options_set_zernikes(wfpsf_options *options, int64_t count,
                 fail(WFPSF_ERROR_NOT_FINITE, "coefficients[%lld] = %g: must be finite",
                      static_cast<long long>(i), coefficients[i]);
         options->zernikes.assign(coefficients, coefficients + count);
+    });
+}
+
+wfpsf_status wfpsf_options_set_progress(wfpsf_options *options, wfpsf_progress progress,
+                                        void *user) {
+    return guarded([&] {
+        require_pointer(options, "options");
+        options->progress = progress;
+        options->progress_user = user;
     });
 }
 

@@ -12,11 +12,12 @@ using namespace wfpsf;
 
 namespace {
 
+constexpr int largest_sed_count = 1000;
 constexpr double arcsec = std::numbers::pi / 180 / 3600;
 
-// The instrument's own aberrations and the caller's, in waves at the wavelength asked for.
+// The instrument's own aberrations and the caller's, in waves at the reference wavelength.
 Wavefront make_wavefront(const Instrument &instrument, std::span<const double> own,
-                         double wavelength_nm, const wfpsf_options *options) {
+                         const wfpsf_options *options) {
     const std::vector<double> &extra = extra_zernikes(options);
     std::vector<double> coefficients(std::max(own.size(), extra.size()));
     std::copy(own.begin(), own.end(), coefficients.begin());
@@ -24,8 +25,6 @@ Wavefront make_wavefront(const Instrument &instrument, std::span<const double> o
         std::fill_n(coefficients.begin(), std::min<size_t>(3, coefficients.size()), 0.0);
     for (size_t i = 0; i < extra.size(); ++i)
         coefficients[i] += extra[i];
-    for (double &a : coefficients)
-        a *= instrument.reference_wavelength_nm() / wavelength_nm;
     return Wavefront(coefficients, instrument.diameter_m() / 2);
 }
 
@@ -37,28 +36,89 @@ std::unique_ptr<const Aperture> make_aperture_of(const Instrument &instrument, i
                       instrument.pupil(sca, band));
 }
 
-// What all ways to make a PSF share; the aperture is made only when the arguments are sound.
+// Jitter and charge diffusion, native pixels^2.
+Covariance make_blur(const Instrument &instrument, const wfpsf_options *options) {
+    constexpr double largest = 16; // native pixels
+    const double scale = instrument.pixel_scale_arcsec();
+    const double xx = option(options, WFPSF_OPTION_JITTER_XX) / (scale * scale);
+    const double xy = option(options, WFPSF_OPTION_JITTER_XY) / (scale * scale);
+    const double yy = option(options, WFPSF_OPTION_JITTER_YY) / (scale * scale);
+    if (!(xy * xy <= xx * yy * (1 + 1e-12)))
+        fail(WFPSF_ERROR_RANGE,
+             "JITTER_XY = %g: its square must not exceed JITTER_XX * JITTER_YY = %g",
+             option(options, WFPSF_OPTION_JITTER_XY),
+             option(options, WFPSF_OPTION_JITTER_XX) * option(options, WFPSF_OPTION_JITTER_YY));
+    const double diffusion = option(options, WFPSF_OPTION_CHARGE_DIFFUSION);
+    const Covariance blur{xx + diffusion * diffusion, xy, yy + diffusion * diffusion};
+    if (!(std::max(blur.xx, blur.yy) <= largest * largest))
+        fail(WFPSF_ERROR_RANGE,
+             "JITTER and CHARGE_DIFFUSION: %g native pixels rms along an axis, must be up to %g",
+             std::sqrt(std::max(blur.xx, blur.yy)), largest);
+    return blur;
+}
+
+PsfSettings make_settings(const Instrument &instrument, bool mirrored,
+                          const wfpsf_options *options) {
+    return {.wavelength = instrument.reference_wavelength_nm() * 1e-9,
+            .pixel_scale = instrument.pixel_scale_arcsec() * arcsec,
+            .eps = option(options, WFPSF_OPTION_EPS),
+            .radius = option(options, WFPSF_OPTION_PSF_RADIUS),
+            .mirrored = mirrored,
+            .blur = make_blur(instrument, options)};
+}
+
+// OK, or the warning that the error estimate does not meet EPS.
+wfpsf_status certify(const Psf &psf) {
+    if (psf.error_estimate() <= psf.settings().eps)
+        return WFPSF_OK;
+    char line[128];
+    std::snprintf(line, sizeof line, "EPS = %g: the error estimate is %g", psf.settings().eps,
+                  psf.error_estimate());
+    return record_error(WFPSF_WARNING_NOT_CERTIFIED, line);
+}
+
+// What all ways to make PSFs share, one for each light; the aperture is made only when the
+// arguments are sound.
 template <class MakeAperture>
 wfpsf_status create(const Instrument &instrument, std::span<const double> aberrations,
-                    double wavelength_nm, const wfpsf_options *options, wfpsf_psf **out,
-                    bool mirrored, MakeAperture make) {
+                    std::span<const Light> lights, bool mirrored, const wfpsf_options *options,
+                    MakeAperture make, wfpsf_psf **out) {
+    const PsfSettings settings = make_settings(instrument, mirrored, options);
+    const Wavefront wavefront = make_wavefront(instrument, aberrations, options);
+    std::vector<Psf> psfs =
+        make_psfs({make(), wavefront, settings.wavelength}, lights, settings, progress_of(options));
+    std::vector<std::unique_ptr<wfpsf_psf>> handles;
+    wfpsf_status status = WFPSF_OK;
+    for (size_t i = 0; i < psfs.size(); ++i) {
+        const double wavelength_nm = lights[i](0).mean_wavelength() * 1e9;
+        if (const wfpsf_status certified = certify(psfs[i]); certified != WFPSF_OK)
+            status = certified;
+        handles.push_back(std::make_unique<wfpsf_psf>(
+            wfpsf_psf{std::move(psfs[i]), wavelength_nm, instrument.pixel_scale_arcsec()}));
+    }
+    for (size_t i = 0; i < handles.size(); ++i)
+        out[i] = handles[i].release();
+    return status;
+}
+
+Light one_colour(double wavelength_nm) {
     require_finite(wavelength_nm, "wavelength_nm");
     if (!(wavelength_nm >= 100 && wavelength_nm <= 1e5))
         fail(WFPSF_ERROR_RANGE, "wavelength_nm = %g: must be 100..100000", wavelength_nm);
-    const Wavefront wavefront = make_wavefront(instrument, aberrations, wavelength_nm, options);
-    const PsfSettings settings{.wavelength = wavelength_nm * 1e-9,
-                               .pixel_scale = instrument.pixel_scale_arcsec() * arcsec,
-                               .eps = option(options, WFPSF_OPTION_EPS),
-                               .radius = option(options, WFPSF_OPTION_PSF_RADIUS),
-                               .mirrored = mirrored};
-    *out = new wfpsf_psf{Psf(make(), wavefront, settings), wavelength_nm,
-                         instrument.pixel_scale_arcsec()};
-    const double estimate = (*out)->psf.error_estimate();
-    if (estimate <= settings.eps)
-        return WFPSF_OK;
-    char line[128];
-    std::snprintf(line, sizeof line, "EPS = %g: the error estimate is %g", settings.eps, estimate);
-    return record_error(WFPSF_WARNING_NOT_CERTIFIED, line);
+    return monochromatic(wavelength_nm * 1e-9);
+}
+
+// PSFs anywhere on a detector through the pupil of a band.
+wfpsf_status create_in_band(const Instrument &instrument, const char *band, int32_t sca, double x,
+                            double y, std::span<const Light> lights, const wfpsf_options *options,
+                            wfpsf_psf **out) {
+    const FieldRule rule =
+        flag(options, WFPSF_OPTION_FIELD_RULE) ? FieldRule::corners : FieldRule::five_points;
+    const bool mirrored =
+        instrument.pupils.size() > 1 && !flag(options, WFPSF_OPTION_FRAME); // C5: one frame
+    return create(
+        instrument, instrument.zernikes(sca, x, y, rule), lights, mirrored, options,
+        [&] { return make_aperture_of(instrument, sca, band, options); }, out);
 }
 
 } // namespace
@@ -75,8 +135,10 @@ wfpsf_status wfpsf_psf_create(const wfpsf_instrument *instrument, int32_t sca, d
                  "instrument: the pupil of %s depends on the band; use "
                  "wfpsf_psf_create_in_band()",
                  i.name);
-        return create(i, i.zernikes(sca), wavelength_nm, options, out, false,
-                      [&] { return make_aperture_of(i, sca, i.bands[0].name, options); });
+        const Light light = one_colour(wavelength_nm);
+        return create(
+            i, i.zernikes(sca), {&light, 1}, false, options,
+            [&] { return make_aperture_of(i, sca, i.bands[0].name, options); }, out);
     });
 }
 
@@ -92,14 +154,35 @@ wfpsf_status wfpsf_psf_create_in_band(const wfpsf_instrument *instrument, const 
         require_finite(y, "y");
         const Instrument &i = instrument->instrument;
         const Band &filter = i.band(band);
-        const FieldRule rule =
-            flag(options, WFPSF_OPTION_FIELD_RULE) ? FieldRule::corners : FieldRule::five_points;
-        const bool mirrored =
-            i.pupils.size() > 1 && !flag(options, WFPSF_OPTION_FRAME); // C5: one frame
-        return create(
-            i, i.zernikes(sca, x, y, rule),
-            wavelength_nm == 0 ? tabulated_wavelengths(filter).effective_nm : wavelength_nm,
-            options, out, mirrored, [&] { return make_aperture_of(i, sca, band, options); });
+        const Light light = one_colour(
+            wavelength_nm == 0 ? tabulated_wavelengths(filter).effective_nm : wavelength_nm);
+        return create_in_band(i, band, sca, x, y, {&light, 1}, options, out);
+    });
+}
+
+wfpsf_status wfpsf_psf_create_chromatic(const wfpsf_instrument *instrument, const char *band,
+                                        int32_t sca, double x, double y, int64_t count,
+                                        const wfpsf_sed *const *seds, const wfpsf_options *options,
+                                        wfpsf_psf **out) {
+    return guarded([&] {
+        require_pointer(out, "out");
+        if (!(count >= 1 && count <= largest_sed_count))
+            fail(WFPSF_ERROR_SIZE, "count = %lld: must be 1..%d", static_cast<long long>(count),
+                 largest_sed_count);
+        std::fill_n(out, count, nullptr);
+        require_pointer(instrument, "instrument");
+        require_pointer(band, "band");
+        require_finite(x, "x");
+        require_finite(y, "y");
+        require_pointer(seds, "seds");
+        const Instrument &i = instrument->instrument;
+        const Band &filter = i.band(band);
+        std::vector<Light> lights;
+        for (int64_t s = 0; s < count; ++s) {
+            require_pointer(seds[s], "seds[i]");
+            lights.push_back(detected_light(filter, seds[s]->sed));
+        }
+        return create_in_band(i, band, sca, x, y, lights, options, out);
     });
 }
 
@@ -122,7 +205,8 @@ wfpsf_status wfpsf_psf_create_from_mask(const wfpsf_instrument *instrument, cons
                 fail(WFPSF_ERROR_RANGE, "%s = %g: must be -1e6..1e6", name, value);
         }
         const Instrument &i = instrument->instrument;
-        return create(i, i.zernikes(sca), wavelength_nm, options, out, false, [&] {
+        const Light light = one_colour(wavelength_nm);
+        const auto aperture = [&] {
             return std::visit(
                 [&](auto pixels) {
                     Plane<double> copy(pixels.nx, pixels.ny);
@@ -132,7 +216,8 @@ wfpsf_status wfpsf_psf_create_from_mask(const wfpsf_instrument *instrument, cons
                     return make_aperture(std::as_const(copy).view(), mask_scale_m, axis_x, axis_y);
                 },
                 mask->image.pixels());
-        });
+        };
+        return create(i, i.zernikes(sca), {&light, 1}, false, options, aperture, out);
     });
 }
 
@@ -227,6 +312,9 @@ wfpsf_status wfpsf_psf_get(const wfpsf_psf *psf, int32_t key, double *value) {
             return;
         case WFPSF_PSF_RADIUS:
             *value = p.settings().radius;
+            return;
+        case WFPSF_PSF_WAVELENGTHS:
+            *value = static_cast<double>(p.components().size());
             return;
         case WFPSF_PSF_LIT_AREA_M2:
             *value = p.lit_area();

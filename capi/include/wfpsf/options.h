@@ -42,6 +42,11 @@ enum { WFPSF_OPTION_REAL = 1, WFPSF_OPTION_INTEGER = 2 };
       "axes of a PSF's image: 0, the detector's science coordinates; 1, those of the exit pupil")  \
     X(FIELD_RULE, 150, INTEGER, 0, 0, 1,                                                           \
       "aberrations between field points: 0, all points are met; 1, bilinear between the corners")  \
+    X(JITTER_XX, 160, REAL, 0, 0, 1e4, "variance of the telescope's jitter along x, arcsec^2")     \
+    X(JITTER_XY, 161, REAL, 0, -1e4, 1e4, "covariance of the jitter along x and y, arcsec^2")      \
+    X(JITTER_YY, 162, REAL, 0, 0, 1e4, "variance of the jitter along y, arcsec^2")                 \
+    X(CHARGE_DIFFUSION, 170, REAL, 0, 0, 16,                                                       \
+      "standard deviation of the Gaussian that charge diffuses over, native pixels")               \
     X(FORCE, 200, INTEGER, 0, 0, 1,                                                                \
       "1: apply an effect even to an image that records it as applied")                            \
     X(IPC_FILL, 210, REAL, 0, -1.7976931348623157e308, 1.7976931348623157e308,                     \
@@ -117,6 +122,25 @@ WFPSF_EXPORT wfpsf_status wfpsf_options_reset(wfpsf_options *options, int32_t ke
  */
 WFPSF_EXPORT wfpsf_status wfpsf_options_set_zernikes(wfpsf_options *options, int64_t count,
                                                      const double *coefficients);
+
+/**
+ * A function that long work calls now and then, on the thread that asked for the work.
+ *
+ * Given:    part  how much is done, 0..1
+ *           user  what was given to wfpsf_options_set_progress()
+ * Returned: 0 to go on; any other number to stop: the work then fails with ERROR_CANCELLED
+ */
+typedef int32_t (*wfpsf_progress)(double part, void *user);
+
+/**
+ * Sets the progress function; NULL takes it away.
+ *
+ * Given:    progress  must not throw, nor leave by longjmp()
+ *           user      passed on to it
+ * Status:   ERROR_NULL
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_options_set_progress(wfpsf_options *options,
+                                                     wfpsf_progress progress, void *user);
 
 /**
  * What is known of an option: its name, kind, default (NaN: chosen by the library) and bounds.

@@ -15,6 +15,7 @@
 
 #include <wfpsf/image.h>
 #include <wfpsf/instrument.h>
+#include <wfpsf/sed.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -24,7 +25,7 @@ typedef struct wfpsf_psf wfpsf_psf;
 
 /** X(NAME, key, text): what can be asked of a PSF. */
 #define WFPSF_PSF_PROPERTY_LIST(X)                                                                 \
-    X(WAVELENGTH_NM, 10, "wavelength, nm")                                                         \
+    X(WAVELENGTH_NM, 10, "wavelength, nm; of many, the mean by photons detected")                  \
     X(PIXEL_SCALE_ARCSEC, 20, "native pixel, arcsec")                                              \
     X(ERROR_ESTIMATE, 30, "numerical error of any pixel, in units of the peak pixel")              \
     X(MODEL_ERROR, 40, "error of the pupil's geometry against the published mask, same units")     \
@@ -33,7 +34,8 @@ typedef struct wfpsf_psf wfpsf_psf;
     X(GRID_SIZE, 70, "side of the focal grid")                                                     \
     X(GRID_STEP_ARCSEC, 80, "step of the focal grid, arcsec")                                      \
     X(RADIUS, 90, "half size of the field made in advance, native pixels")                         \
-    X(LIT_AREA_M2, 100, "lit area of the pupil, m^2")
+    X(LIT_AREA_M2, 100, "lit area of the pupil, m^2")                                              \
+    X(WAVELENGTHS, 110, "wavelengths that the PSF is a sum over")
 
 #define WFPSF_PSF_PROPERTY_ENUM(name, key, text) WFPSF_PSF_##name = (key),
 enum { WFPSF_PSF_PROPERTY_LIST(WFPSF_PSF_PROPERTY_ENUM) };
@@ -46,11 +48,12 @@ enum { WFPSF_PSF_PROPERTY_LIST(WFPSF_PSF_PROPERTY_ENUM) };
  * Given:    instrument     may be freed afterwards
  *           sca            1..18
  *           wavelength_nm  100..100000
- *           options        EPS, STRUTS, PSF_RADIUS, PISTON_TILT and extra Zernikes
+ *           options        EPS, STRUTS, PSF_RADIUS, PISTON_TILT, JITTER_*, CHARGE_DIFFUSION,
+ *                          extra Zernikes and the progress function
  * Returned: out            the handle; NULL on failure
  * Status:   ERROR_NULL, ERROR_RANGE, ERROR_NOT_FINITE, ERROR_NO_MEMORY;
  *           ERROR_ARGUMENT if the pupil depends on the band (wfpsf_psf_create_in_band());
- *           WARNING_NOT_CERTIFIED if the error estimate stays above EPS
+ *           ERROR_CANCELLED; WARNING_NOT_CERTIFIED if the error estimate stays above EPS
  */
 WFPSF_EXPORT wfpsf_status wfpsf_psf_create(const wfpsf_instrument *instrument, int32_t sca,
                                            double wavelength_nm, const wfpsf_options *options,
@@ -67,11 +70,12 @@ WFPSF_EXPORT wfpsf_status wfpsf_psf_create(const wfpsf_instrument *instrument, i
  * both.
  *
  * Given:    band           such as "J129"
- *           x, y           position on the detector, pixels, the first one's centre at (0, 0); up
- * to 512 pixels beyond the detector's edge wavelength_nm  100..100000; 0: the band's effective
- * wavelength, tabulated others         as for wfpsf_psf_create(), and FRAME, FIELD_RULE Returned:
- * out            the handle; NULL on failure Status:   as for wfpsf_psf_create();
- * ERROR_UNKNOWN_NAME
+ *           x, y           position on the detector, pixels, the first one's centre at (0, 0);
+ *                          up to 512 pixels beyond the detector's edge
+ *           wavelength_nm  100..100000; 0: the band's effective wavelength, tabulated
+ *           others         as for wfpsf_psf_create(), and FRAME, FIELD_RULE
+ * Returned: out            the handle; NULL on failure
+ * Status:   as for wfpsf_psf_create(); ERROR_UNKNOWN_NAME
  */
 WFPSF_EXPORT wfpsf_status wfpsf_psf_create_in_band(const wfpsf_instrument *instrument,
                                                    const char *band, int32_t sca, double x,
@@ -79,8 +83,28 @@ WFPSF_EXPORT wfpsf_status wfpsf_psf_create_in_band(const wfpsf_instrument *instr
                                                    const wfpsf_options *options, wfpsf_psf **out);
 
 /**
- * The same with the pupil given as a mask: every pixel a square of that transmission, with the
- * phase of its centre. Takes a second for a mask of 4096 x 4096.
+ * PSFs of sources of many colours, seen through a band: the sum of monochromatic PSFs over the
+ * photons detected, which are the SED's times the band's throughput. Aberrations are a length, so
+ * their waves go as 1 / wavelength. The library chooses as many wavelengths as EPS needs (Gauss
+ * nodes for the photons detected); several SEDs share their monochromatic images, so that many cost
+ * little more than one.
+ *
+ * Given:    count    of SEDs, 1..1000
+ *           seds     count handles, which may be freed afterwards
+ *           others   as for wfpsf_psf_create_in_band()
+ * Returned: out      count handles; NULL all of them on failure
+ * Status:   as for wfpsf_psf_create_in_band(); ERROR_SIZE; ERROR_RANGE if a table does not cover
+ *           the band; ERROR_ARGUMENT if no light of an SED is detected; ERROR_CANCELLED
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_psf_create_chromatic(const wfpsf_instrument *instrument,
+                                                     const char *band, int32_t sca, double x,
+                                                     double y, int64_t count,
+                                                     const wfpsf_sed *const *seds,
+                                                     const wfpsf_options *options, wfpsf_psf **out);
+
+/**
+ * The PSF at the centre of a detector with the pupil given as a mask: every pixel a square of that
+ * transmission, with the phase of its centre. Takes a second for a mask of 4096 x 4096.
  *
  * Given:    mask            transmissions in [0, 1]; copied
  *           mask_scale_m    side of a mask pixel, metres, > 0

@@ -12,6 +12,7 @@
 #include <wfpsf/moments.h>
 #include <wfpsf/options.h>
 #include <wfpsf/psf.h>
+#include <wfpsf/sed.h>
 #include <wfpsf/size.h>
 #include <wfpsf/status.h>
 #include <wfpsf/version.h>
