@@ -47,25 +47,26 @@ Psf::Field Psf::make_field(double radius) const {
 
 // `tolerance` in units of the unaberrated peak.
 Psf::Field Psf::make_field(double radius, double tolerance) const {
-    // The filters for the pixel's average and for the interpolation err along two axes each.
     const double bandwidth = aperture_->diameter() * grid_step() / settings_.wavelength;
-    Field field(BandlimitedInterpolator(bandwidth, tolerance / 8));
     const auto per_pixel = static_cast<double>(per_pixel_);
-    const std::vector<double> pixel = field.interpolator.averaging_filter(per_pixel);
+    const double strength =
+        outline_strength(aperture_->outline(), aperture_->diameter(), aperture_->area());
+    const AveragedSamples samples(bandwidth, per_pixel, aperture_->outline(),
+                                  tolerance / 2 / strength);
+    Field field(samples.interpolator());
+    const std::vector<double> &pixel = samples.averaging();
     const auto margin = static_cast<int64_t>(pixel.size()) / 2;
     const auto reach =
         static_cast<int64_t>(std::ceil(radius * per_pixel)) + field.interpolator.half_width();
     const FocalGrid grid{2 * (reach + margin) + 1, grid_step()};
-    const Amplitude amplitude =
-        aperture_->amplitude(wavefront_, settings_.wavelength, grid, tolerance / 2);
-    Plane<double> intensity(grid.size, grid.size);
-    for (int64_t y = 0; y < grid.size; ++y)
-        for (int64_t x = 0; x < grid.size; ++x)
-            intensity(x, y) =
-                std::norm(amplitude.value(x, settings_.mirrored ? grid.size - 1 - y : y));
+    const Diffraction diffraction =
+        aperture_->diffract(wavefront_, settings_.wavelength, grid, tolerance / 2);
+    View<const double> intensity = diffraction.intensity.view();
+    if (settings_.mirrored)
+        intensity = {intensity.row(grid.size - 1), grid.size, grid.size, 1, -grid.size};
 
-    field.value = filter(intensity.view(), pixel);
-    field.nodes = amplitude.nodes;
+    field.value = filter(intensity, pixel);
+    field.nodes = diffraction.nodes;
     // Fraction of the light in a pixel: its solid angle times |A|^2 / (area lambda^2).
     const double wavelengths = settings_.pixel_scale / settings_.wavelength;
     const double scale = wavelengths * wavelengths / aperture_->area();
@@ -74,11 +75,10 @@ Psf::Field Psf::make_field(double radius, double tolerance) const {
             field.value(x, y) *= scale;
             field.peak = std::max(field.peak, field.value(x, y));
         }
-    // The unaberrated peak also bounds the integral of the spectrum that the filters' errors
-    // multiply. A stamp's brightest pixel may be half the largest possible one.
+    // A stamp's brightest pixel may be half the largest possible one.
     const double ratio = 2 * scale * aperture_->area() * aperture_->area() / field.peak;
-    field.error = ratio * (amplitude.error + 4 * field.interpolator.error());
-    field.model_error = ratio * amplitude.model_error;
+    field.error = ratio * (diffraction.error + strength * samples.error());
+    field.model_error = ratio * diffraction.model_error;
     return field;
 }
 
