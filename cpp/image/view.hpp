@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <new>
 #include <type_traits>
 #include <vector>
 
@@ -23,24 +24,44 @@ template <class T> struct View {
     }
 };
 
-// Pixels with an owner, contiguous, x fastest.
+// Memory for wide vector instructions, which are slow where they straddle two lines of the cache.
+inline constexpr size_t cache_line = 64;
+template <class T> struct AlignedAllocator {
+    using value_type = T;
+    AlignedAllocator() = default;
+    template <class U> AlignedAllocator(const AlignedAllocator<U> &) {}
+    T *allocate(size_t n) {
+        return static_cast<T *>(::operator new(n * sizeof(T), std::align_val_t(cache_line)));
+    }
+    void deallocate(T *memory, size_t) { ::operator delete(memory, std::align_val_t(cache_line)); }
+    bool operator==(const AlignedAllocator &) const { return true; }
+};
+
+// Pixels with an owner, x fastest; contiguous unless every row is asked to begin a cache line.
 template <class T> class Plane {
   public:
     Plane() = default;
-    Plane(int64_t nx, int64_t ny)
-        : nx_(nx), ny_(ny), pixels_(static_cast<size_t>(nx) * static_cast<size_t>(ny)) {}
+    Plane(int64_t nx, int64_t ny) : Plane(nx, ny, nx) {}
+    static Plane with_aligned_rows(int64_t nx, int64_t ny) {
+        constexpr auto line = static_cast<int64_t>(cache_line / sizeof(T));
+        return Plane(nx, ny, (nx + line - 1) / line * line);
+    }
     int64_t nx() const { return nx_; }
     int64_t ny() const { return ny_; }
-    T &operator()(int64_t x, int64_t y) { return pixels_[static_cast<size_t>(y * nx_ + x)]; }
+    T &operator()(int64_t x, int64_t y) { return pixels_[static_cast<size_t>(y * stride_ + x)]; }
     const T &operator()(int64_t x, int64_t y) const {
-        return pixels_[static_cast<size_t>(y * nx_ + x)];
+        return pixels_[static_cast<size_t>(y * stride_ + x)];
     }
-    View<T> view() { return {pixels_.data(), nx_, ny_, 1, nx_}; }
-    View<const T> view() const { return {pixels_.data(), nx_, ny_, 1, nx_}; }
+    View<T> view() { return {pixels_.data(), nx_, ny_, 1, stride_}; }
+    View<const T> view() const { return {pixels_.data(), nx_, ny_, 1, stride_}; }
 
   private:
-    int64_t nx_ = 0, ny_ = 0;
-    std::vector<T> pixels_;
+    Plane(int64_t nx, int64_t ny, int64_t stride)
+        : nx_(nx), ny_(ny), stride_(stride),
+          pixels_(static_cast<size_t>(stride) * static_cast<size_t>(ny)) {}
+
+    int64_t nx_ = 0, ny_ = 0, stride_ = 0;
+    std::vector<T, AlignedAllocator<T>> pixels_;
 };
 
 } // namespace wfpsf

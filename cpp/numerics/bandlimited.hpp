@@ -17,7 +17,6 @@ class BandlimitedInterpolator {
   public:
     BandlimitedInterpolator(double bandwidth, double eps);
 
-    double bandwidth() const { return bandwidth_; }
     int half_width() const { return half_width_; }
     int taps() const { return 2 * half_width_; }
     double error() const { return error_; }
@@ -34,9 +33,39 @@ class BandlimitedInterpolator {
     std::vector<double> averaging_filter(double width) const;
 
   private:
-    double bandwidth_;
+    friend class AveragedSamples;
+    BandlimitedInterpolator(int half_width, double beta) : half_width_(half_width), beta_(beta) {}
+
     int half_width_;
-    double beta_, error_;
+    double beta_, error_ = 0;
+};
+
+// What bounds the spectrum of an intensity behind an aperture of given extent along both axes: the
+// outline that the aperture fits in, a square or an ellipse.
+enum class Outline { square, round };
+
+// The largest |A|^2 in units of area^2 there can be, if all of the outline were lit. The bound on
+// the spectrum is as many times that of the outline, scaled to an integral of one.
+double outline_strength(Outline outline, double extent, double area);
+
+// The two filters that a native pixel's samples need: the average over `width` samples, and the
+// interpolation of what that gives. The spectrum of the intensity runs out at the band's edge: so
+// both may cut deeper into the band than for a spectrum of any shape, and are shorter.
+class AveragedSamples {
+  public:
+    // error() <= eps, where rounding allows it.
+    AveragedSamples(double bandwidth, double width, Outline outline, double eps);
+
+    const BandlimitedInterpolator &interpolator() const { return interpolator_; }
+    const std::vector<double> &averaging() const { return averaging_; } // taps 0..2m, centre m
+
+    // Bounds the error of all passes, two along each axis, in units of outline_strength().
+    double error() const { return error_; }
+
+  private:
+    BandlimitedInterpolator interpolator_;
+    std::vector<double> averaging_;
+    double error_;
 };
 
 } // namespace wfpsf

@@ -4,6 +4,7 @@
 #include <map>
 #include <mutex>
 #include <new>
+#include <utility>
 
 #include <fftw3.h>
 
@@ -24,16 +25,18 @@ int64_t good_fft_length(int64_t n) {
     }
 }
 
-BackwardFft::BackwardFft(int64_t n) {
+BackwardFft::BackwardFft(int64_t n, int64_t batch) {
     static std::mutex lock;
     // For the life of the process: never destroyed, so that threads may outlive main().
-    static auto &plans = *new std::map<int64_t, fftw_plan>;
+    static auto &plans = *new std::map<std::pair<int64_t, int64_t>, fftw_plan>;
     const std::lock_guard guard(lock);
-    fftw_plan &plan = plans[n];
+    fftw_plan &plan = plans[{n, batch}];
     if (!plan) {
+        const int length = static_cast<int>(n), side_by_side = static_cast<int>(batch);
         // Unaligned, so that any buffer will do; an estimate does not touch the data.
-        plan = fftw_plan_dft_1d(static_cast<int>(n), nullptr, nullptr, FFTW_BACKWARD,
-                                FFTW_ESTIMATE | FFTW_UNALIGNED);
+        plan = fftw_plan_many_dft(1, &length, side_by_side, nullptr, nullptr, side_by_side, 1,
+                                  nullptr, nullptr, side_by_side, 1, FFTW_BACKWARD,
+                                  FFTW_ESTIMATE | FFTW_UNALIGNED);
         if (!plan)
             throw std::bad_alloc();
     }

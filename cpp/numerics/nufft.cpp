@@ -3,6 +3,7 @@
 
 #include "numerics/dispatch.hpp"
 #include "numerics/fft.hpp"
+#include "numerics/phasor.hpp"
 #include "numerics/quadrature.hpp"
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include <cmath>
 #include <numbers>
 #include <utility>
-#include <vector>
 
 namespace wfpsf {
 
@@ -20,6 +20,7 @@ constexpr double pi = std::numbers::pi;
 using Complex = std::complex<double>;
 
 constexpr int narrowest = 4, widest = 16; // kernel widths, fine grid cells
+constexpr int64_t batch = 16;             // columns transformed together
 
 // The spreading kernel exp(beta (sqrt(1 - z^2) - 1)), |z| < 1, over `width` cells of a grid twice
 // as fine as the modes need.
@@ -36,18 +37,29 @@ double beta_for(int width) {
     return 2.3 * width;
 }
 
-// The transform of the kernel at modes 0..K of a fine grid of n cells.
-std::vector<double> kernel_transform(int width, int64_t K, int64_t n) {
+int64_t fine_cells(int64_t K, int width) {
+    return good_fft_length(std::max<int64_t>(2 * (2 * K + 1), 2 * width));
+}
+
+WFPSF_VECTORISED void add_wave(double weight, double turns, std::vector<double> &sums) {
+    for (size_t k = 0; k < sums.size(); ++k) {
+        double cosine, sine;
+        phasor(turns * static_cast<double>(k), cosine, sine);
+        sums[k] += weight * cosine;
+    }
+}
+
+// One over the transform of the kernel at modes 0..K of a fine grid of n cells.
+std::vector<double> kernel_correction(int width, int64_t K, int64_t n) {
     const GaussLegendre rule(2 * width + 12);
     const double beta = beta_for(width), half = width / 2.0;
-    std::vector<double> transform(static_cast<size_t>(K + 1));
-    for (size_t i = 0; i < rule.x.size(); ++i) {
-        const double weight = rule.w[i] * half * kernel(beta, rule.x[i]);
-        const double angle = 2 * pi * half * rule.x[i] / static_cast<double>(n);
-        for (size_t k = 0; k < transform.size(); ++k)
-            transform[k] += weight * std::cos(angle * static_cast<double>(k));
-    }
-    return transform;
+    std::vector<double> modes(static_cast<size_t>(K + 1));
+    for (size_t i = 0; i < rule.x.size(); ++i)
+        add_wave(rule.w[i] * half * kernel(beta, rule.x[i]),
+                 half * rule.x[i] / static_cast<double>(n), modes);
+    for (double &mode : modes)
+        mode = 1 / mode;
+    return modes;
 }
 
 // The kernel at all W cells around a source, as one polynomial a cell in the source's offset
@@ -70,13 +82,16 @@ template <int W> class KernelPolynomials {
         }
     }
 
+    // Whole vectors: the kernel is zero in the cells beyond W.
+    static constexpr size_t padded = (W + 3) / 4 * 4;
+
     // Values at cells 0..W-1 for a source at offset z in [-1, 1] of half a cell.
     [[gnu::always_inline]] void evaluate(double z, double *values) const {
-        for (int cell = 0; cell < W; ++cell)
-            values[cell] = coefficients_[degree][static_cast<size_t>(cell)];
+        for (size_t cell = 0; cell < padded; ++cell)
+            values[cell] = coefficients_[degree][cell];
         for (size_t k = degree; k-- > 0;)
-            for (int cell = 0; cell < W; ++cell)
-                values[cell] = values[cell] * z + coefficients_[k][static_cast<size_t>(cell)];
+            for (size_t cell = 0; cell < padded; ++cell)
+                values[cell] = values[cell] * z + coefficients_[k][cell];
     }
 
   private:
@@ -101,101 +116,125 @@ template <int W> class KernelPolynomials {
         }
     }
 
-    std::array<std::array<double, W>, degree + 1> coefficients_;
+    std::array<std::array<double, padded>, degree + 1> coefficients_{};
 };
 
-// One axis of the fine grid: which cells the sources reach, and the scale.
-struct Axis {
-    int64_t n;           // cells in a period
-    int64_t first, used; // cells that the sources touch
-
-    Axis(std::span<const double> angles, int64_t cells, int width) : n(cells) {
-        const auto [low, high] = std::minmax_element(angles.begin(), angles.end());
-        first = cell(*low, width);
-        used = cell(*high, width) + width - first;
-    }
-    double scaled(double angle) const { return angle * static_cast<double>(n) / (2 * pi); }
-    // The first of the cells that a source at this angle is spread over.
-    int64_t cell(double angle, int width) const {
-        return static_cast<int64_t>(std::floor(scaled(angle) - width / 2.0)) + 1;
+// Where a source stands on an axis of the fine grid: the first of the W cells that it is spread
+// over, and its offset from their middle in half cells.
+template <int W> struct Place {
+    int64_t cell;
+    double offset;
+    [[gnu::always_inline]] Place(double angle, double cells_per_radian) {
+        const double scaled = angle * cells_per_radian;
+        const double below = std::floor(scaled - W / 2.0);
+        cell = static_cast<int64_t>(below) + 1;
+        offset = 2 * (scaled - below - (W + 1) / 2.0);
     }
 };
 
-// Sums the sources onto the cells that they touch: grid[y * x.used + x].
+// Adds sources to the cells around them; (first_x, first_y) is the cell that stands at `cells`.
 template <int W>
-WFPSF_VECTORISED std::vector<Complex> spread(std::span<const double> a, std::span<const double> b,
-                                             std::span<const Complex> c, const Axis &x,
-                                             const Axis &y) {
-    const KernelPolynomials<W> polynomials;
-    std::vector<Complex> grid(static_cast<size_t>(x.used * y.used));
+WFPSF_VECTORISED void spread_sources(std::span<const double> a, std::span<const double> b,
+                                     std::span<const Complex> c, double cells_per_radian,
+                                     int64_t first_x, int64_t first_y, int64_t stride,
+                                     Complex *cells) {
+    static const KernelPolynomials<W> polynomials;
+    constexpr size_t padded = KernelPolynomials<W>::padded;
     for (size_t i = 0; i < c.size(); ++i) {
-        const int64_t cell_x = x.cell(a[i], W), cell_y = y.cell(b[i], W);
-        const auto offset = [](double scaled, int64_t cell) {
-            return 2 * (scaled - static_cast<double>(cell) - (W - 1) / 2.0);
-        };
-        double along_x[W], along_y[W], row[2 * W];
-        polynomials.evaluate(offset(x.scaled(a[i]), cell_x), along_x);
-        polynomials.evaluate(offset(y.scaled(b[i]), cell_y), along_y);
-        for (int k = 0; k < W; ++k) {
-            row[2 * k] = c[i].real() * along_x[k];
-            row[2 * k + 1] = c[i].imag() * along_x[k];
+        const Place<W> x(a[i], cells_per_radian), y(b[i], cells_per_radian);
+        double along_x[padded], along_y[padded], row[2 * padded];
+        polynomials.evaluate(x.offset, along_x);
+        polynomials.evaluate(y.offset, along_y);
+        for (size_t k = 0; k < padded; ++k) {
+            row[2 * k] = along_x[k] * c[i].real();
+            row[2 * k + 1] = along_x[k] * c[i].imag();
         }
-        auto *cells = reinterpret_cast<double *>(
-            &grid[static_cast<size_t>((cell_y - y.first) * x.used + cell_x - x.first)]);
-        for (int j = 0; j < W; ++j, cells += 2 * x.used)
-            for (int k = 0; k < 2 * W; ++k)
-                cells[k] += along_y[j] * row[k];
+        auto *sums =
+            reinterpret_cast<double *>(cells + (y.cell - first_y) * stride + x.cell - first_x);
+        for (size_t j = 0; j < W; ++j, sums += 2 * stride)
+            for (size_t k = 0; k < 2 * padded; ++k)
+                sums[k] += along_y[j] * row[k];
     }
-    return grid;
 }
 
-template <int W = narrowest>
-std::vector<Complex> spread_width(int width, std::span<const double> a, std::span<const double> b,
-                                  std::span<const Complex> c, const Axis &x, const Axis &y) {
+template <int W = narrowest, class... Arguments>
+void spread_width(int width, Arguments &&...arguments) {
     if constexpr (W < widest)
         if (width > W)
-            return spread_width<W + 1>(width, a, b, c, x, y);
-    return spread<W>(a, b, c, x, y);
+            return spread_width<W + 1>(width, arguments...);
+    spread_sources<W>(arguments...);
 }
 
-// Transforms every row of `lines` x axis.used cells to modes -K..K, divides by the kernel's
-// transform and writes the result transposed: out[mode * lines + line].
-void transform_rows(const Complex *rows, int64_t lines, const Axis &axis, int64_t K,
-                    const std::vector<double> &kernel_modes, Complex *out) {
-    const BackwardFft fft(axis.n);
-    std::vector<Complex> period(static_cast<size_t>(axis.n));
-    const auto wrapped = [&axis](int64_t i) {
-        return static_cast<size_t>(((i % axis.n) + axis.n) % axis.n);
-    };
-    for (int64_t line = 0; line < lines; ++line) {
-        std::fill(period.begin(), period.end(), Complex(0));
-        for (int64_t i = 0; i < axis.used; ++i)
-            period[wrapped(axis.first + i)] += rows[line * axis.used + i];
-        fft.run(period.data());
-        for (int64_t k = -K; k <= K; ++k)
-            out[(k + K) * lines + line] =
-                period[wrapped(k)] / kernel_modes[static_cast<size_t>(std::abs(k))];
-    }
+int64_t wrapped(int64_t i, int64_t n) {
+    return ((i % n) + n) % n;
 }
 
 } // namespace
 
-void nufft_type1(std::span<const double> a, std::span<const double> b, std::span<const Complex> c,
-                 int64_t K, double eps, Complex *out) {
-    const int64_t modes = 2 * K + 1;
-    if (c.empty()) {
-        std::fill_n(out, modes * modes, Complex(0));
-        return;
+Type1Transform::Axis::Axis(Band band, int64_t cells, int width) : n(cells) {
+    const auto cell = [&](double angle) {
+        return static_cast<int64_t>(
+            std::floor(angle * (static_cast<double>(n) / (2 * pi)) - width / 2.0));
+    };
+    // A cell to spare at either end, for roundings of the band.
+    first = cell(band.low);
+    used = cell(band.high) + width + 2 - first;
+}
+
+Type1Transform::Type1Transform(Band a, Band b, int64_t K, double eps)
+    : K_(K), width_(width_for(eps)), x_(a, fine_cells(K, width_), width_), y_(b, x_.n, width_),
+      correction_(kernel_correction(width_, K, x_.n)),
+      stride_((x_.used + batch - 1) / batch * batch),
+      cells_(static_cast<size_t>(stride_ * y_.used + batch)) {}
+
+void Type1Transform::add(std::span<const double> a, std::span<const double> b,
+                         std::span<const Complex> c) {
+    spread_width(width_, a, b, c, static_cast<double>(x_.n) / (2 * pi), x_.first, y_.first, stride_,
+                 cells_.data());
+}
+
+// Modes first..last along y of every column of cells, divided by the kernel's transform.
+std::vector<Complex> Type1Transform::transform_columns(int64_t first, int64_t last) const {
+    const int64_t n = y_.n;
+    const BackwardFft fft(n, batch);
+    std::vector<Complex> half(static_cast<size_t>((last - first + 1) * stride_));
+    std::vector<Complex> period(static_cast<size_t>(n * batch));
+    for (int64_t x = 0; x < stride_; x += batch) {
+        std::fill(period.begin(), period.end(), Complex(0));
+        for (int64_t y = 0; y < y_.used; ++y) {
+            const Complex *from = &cells_[static_cast<size_t>(y * stride_ + x)];
+            Complex *to = &period[static_cast<size_t>(wrapped(y_.first + y, n) * batch)];
+            for (int64_t i = 0; i < batch; ++i)
+                to[i] += from[i];
+        }
+        fft.run(period.data());
+        for (int64_t k = first; k <= last; ++k) {
+            const double factor = correction_[static_cast<size_t>(std::abs(k))];
+            const Complex *from = &period[static_cast<size_t>(wrapped(k, n) * batch)];
+            Complex *to = &half[static_cast<size_t>((k - first) * stride_ + x)];
+            for (int64_t i = 0; i < batch; ++i)
+                to[i] = factor * from[i];
+        }
     }
-    const int width = width_for(eps);
-    const int64_t n = good_fft_length(std::max<int64_t>(2 * modes, 2 * width));
-    const std::vector<double> kernel_modes = kernel_transform(width, K, n);
-    const Axis x(a, n, width), y(b, n, width);
-    const std::vector<Complex> grid = spread_width(width, a, b, c, x, y);
-    // Along x first: rows of cells in y become columns, so that the second pass restores the order.
-    std::vector<Complex> half(static_cast<size_t>(modes * y.used));
-    transform_rows(grid.data(), y.used, x, K, kernel_modes, half.data());
-    transform_rows(half.data(), modes, y, K, kernel_modes, out);
+    return half;
+}
+
+void Type1Transform::rows(int64_t first, int64_t last, const RowSink &row) const {
+    const std::vector<Complex> half = transform_columns(first, last);
+    const int64_t n = x_.n;
+    const BackwardFft fft(n);
+    std::vector<Complex> period(static_cast<size_t>(n)), modes(static_cast<size_t>(2 * K_ + 1));
+    for (int64_t jy = first; jy <= last; ++jy) {
+        const Complex *cells = &half[static_cast<size_t>((jy - first) * stride_)];
+        std::fill(period.begin(), period.end(), Complex(0));
+        for (int64_t i = 0; i < x_.used; ++i)
+            period[static_cast<size_t>(wrapped(x_.first + i, n))] += cells[i];
+        fft.run(period.data());
+        for (int64_t k = -K_; k <= K_; ++k)
+            modes[static_cast<size_t>(k + K_)] = correction_[static_cast<size_t>(std::abs(k))] *
+                                                 period[static_cast<size_t>(wrapped(k, n))];
+        row(jy, modes);
+    }
 }
 
 } // namespace wfpsf

@@ -6,17 +6,51 @@
 
 #include <complex>
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <vector>
 
 namespace wfpsf {
 
 inline constexpr double nufft_best_eps = 1e-14;
 
-// out[(jy + K) (2K + 1) + jx + K] = sum_n c_n exp(i (a_n jx + b_n jy)), jx, jy = -K..K, with an
-// error of about eps times sum |c_n|. |a_n|, |b_n| < pi; the narrower their range, the faster:
-// transforms of what is known to be zero are left out.
-void nufft_type1(std::span<const double> a, std::span<const double> b,
-                 std::span<const std::complex<double>> c, int64_t K, double eps,
-                 std::complex<double> *out);
+// F(jx, jy) = sum_n c_n exp(i (a_n jx + b_n jy)), jx, jy = -K..K, with an error of about eps times
+// sum |c_n|. Sources are added in batches; then the modes are asked for, all at once or a strip of
+// rows at a time, so that the memory is that of the sources' band and of the rows.
+class Type1Transform {
+  public:
+    // The range of a source's angle along one axis, within -pi..pi. The narrower, the faster:
+    // transforms of what is known to be zero are left out.
+    struct Band {
+        double low, high;
+    };
+
+    Type1Transform(Band a, Band b, int64_t K, double eps);
+
+    // Every source must lie within the bands.
+    void add(std::span<const double> a, std::span<const double> b,
+             std::span<const std::complex<double>> c);
+
+    // Calls row(jy, modes -K..K along x) for jy = first..last in this order. Every call transforms
+    // all of the band along y anew.
+    using RowSink = std::function<void(int64_t jy, std::span<const std::complex<double>> modes)>;
+    void rows(int64_t first, int64_t last, const RowSink &row) const;
+
+  private:
+    // One axis of the fine grid.
+    struct Axis {
+        int64_t n;           // cells in a period
+        int64_t first, used; // cells that the sources may touch
+        Axis(Band band, int64_t cells, int width);
+    };
+    std::vector<std::complex<double>> transform_columns(int64_t first, int64_t last) const;
+
+    int64_t K_;
+    int width_; // of the spreading kernel, fine grid cells
+    Axis x_, y_;
+    std::vector<double> correction_; // one over the kernel's transform at modes 0..K
+    int64_t stride_;                 // of a row of cells
+    std::vector<std::complex<double>> cells_;
+};
 
 } // namespace wfpsf

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From pupil to focal plane: the diffracted amplitude
 //     A(theta) = integral over the lit pupil of exp(2 pi i W(u)) exp(2 pi i u . theta / lambda) d2u
-// on a square grid of angles. Two ways that share no code: areal quadrature and a nonuniform FFT
-// for a pupil given as geometry, the matrix Fourier transform of a mask's square pixels.
+// and its intensity |A|^2 on a square grid of angles. Two ways that share no code: areal quadrature
+// and a nonuniform FFT for a pupil given as geometry, the matrix Fourier transform of a mask's
+// square pixels.
 #pragma once
 
 #include "image/view.hpp"
 #include "instrument/pupil.hpp"
+#include "numerics/bandlimited.hpp"
 #include "optics/wavefront.hpp"
 
-#include <complex>
 #include <memory>
 #include <vector>
 
@@ -24,9 +25,9 @@ struct FocalGrid {
     double largest_angle() const { return half() * step; }
 };
 
-struct Amplitude {
-    Plane<std::complex<double>> value; // (x, y), m^2
-    int64_t nodes = 0;                 // quadrature nodes or mask pixels summed
+struct Diffraction {
+    Plane<double> intensity; // |A|^2, (x, y), m^4
+    int64_t nodes = 0;       // quadrature nodes or mask pixels summed
     // The largest error of |A|^2 in units of area^2: estimate of the numerical one, and what the
     // pupil's description may be off the truth (the fit of a geometry, the pixels of a mask).
     double error = 0, model_error = 0;
@@ -36,15 +37,17 @@ class Aperture {
   public:
     virtual ~Aperture() = default;
 
-    // Amplitude with |A|^2 good to about `eps` of area^2, the peak of the unaberrated PSF.
-    virtual Amplitude amplitude(const Wavefront &wavefront, double wavelength,
-                                const FocalGrid &grid, double eps) const = 0;
+    // |A|^2 good to about `eps` of area^2, the peak of the unaberrated PSF.
+    virtual Diffraction diffract(const Wavefront &wavefront, double wavelength,
+                                 const FocalGrid &grid, double eps) const = 0;
 
     double area() const { return area_; }         // lit, m^2
     double diameter() const { return diameter_; } // the larger extent along x or y, m
+    Outline outline() const { return outline_; }  // what the lit area fits in, as large
 
   protected:
     double area_ = 0, diameter_ = 0;
+    Outline outline_ = Outline::square;
 };
 
 std::unique_ptr<const Aperture> make_aperture(const SegmentedPupil &pupil);

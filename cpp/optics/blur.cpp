@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "optics/blur.hpp"
 
+#include "numerics/bandlimited.hpp"
 #include "numerics/quadrature.hpp"
 
 #include <algorithm>
@@ -23,9 +24,9 @@ double sinc(double t) {
 // Fourier integral of what the three do to each frequency.
 class BlurredKernel {
   public:
-    BlurredKernel(const BandlimitedInterpolator &interpolator, double width, double variance,
-                  double reach) {
-        const double last = 1 - interpolator.bandwidth(); // the kernel holds nothing above
+    // The interpolator's kernel holds no frequency above `last`.
+    BlurredKernel(const BandlimitedInterpolator &interpolator, double last, double width,
+                  double variance, double reach) {
         const GaussLegendre in_frequency(gauss_legendre_points(
             pi * last * (reach + interpolator.half_width() + width / 2), 1e-15));
         const GaussLegendre in_panel(16);
@@ -76,7 +77,7 @@ SeparableFilter in_few_terms(const Eigen::MatrixXd &filter, double error) {
     Eigen::Index kept = value.size();
     for (double dropped = 0; kept > 1 && (dropped += size(kept - 1)) < error;)
         --kept;
-    SeparableFilter out;
+    SeparableFilter out{{}, 4 * error};
     for (Eigen::Index i = 0; i < kept; ++i)
         out.terms.push_back(
             {to_vector(value[i] * svd.matrixU().col(i)), to_vector(svd.matrixV().col(i))});
@@ -85,30 +86,28 @@ SeparableFilter in_few_terms(const Eigen::MatrixXd &filter, double error) {
 
 } // namespace
 
-SeparableFilter averaging_filter(const BandlimitedInterpolator &interpolator, double width,
-                                 const Covariance &blur) {
-    if (blur.none()) {
-        const std::vector<double> taps = interpolator.averaging_filter(width);
-        return {{{taps, taps}}};
-    }
-    const double error = interpolator.error();
+SeparableFilter blurring_filter(double bandwidth, double width, const Covariance &blur,
+                                double eps) {
+    const BandlimitedInterpolator interpolator(bandwidth, eps / 4);
+    const double error = interpolator.error(), last = 1 - bandwidth;
     // Beyond so many standard deviations, and above so many standard deviations in frequency, a
     // Gaussian is below the error.
     const double tail = std::sqrt(2 * std::log(10 / error));
     const double reach = tail * std::sqrt(std::max(blur.xx, blur.yy));
     const int m = static_cast<int>(std::ceil(interpolator.half_width() + width / 2 + reach));
     if (blur.xy == 0)
-        return {{{to_vector(BlurredKernel(interpolator, width, blur.xx, m).taps(m)),
-                  to_vector(BlurredKernel(interpolator, width, blur.yy, m).taps(m))}}};
+        return {{{to_vector(BlurredKernel(interpolator, last, width, blur.xx, m).taps(m)),
+                  to_vector(BlurredKernel(interpolator, last, width, blur.yy, m).taps(m))}},
+                4 * error};
 
     // The covariance is that of a round Gaussian, which is separable, and one along a line.
     const double middle = (blur.xx + blur.yy) / 2;
     const double excess = std::hypot((blur.xx - blur.yy) / 2, blur.xy);
     const double along = std::sqrt(2 * excess);
     const double angle = std::atan2(blur.xy, (blur.xx - blur.yy) / 2) / 2;
-    const BlurredKernel round(interpolator, width, std::max(0.0, middle - excess), m + reach);
+    const BlurredKernel round(interpolator, last, width, std::max(0.0, middle - excess), m + reach);
     // Equal steps along the line: what aliases is a frequency that the Gaussian does not hold.
-    const double highest = std::numbers::sqrt2 * (1 - interpolator.bandwidth());
+    const double highest = std::numbers::sqrt2 * last;
     const double step = 1 / (tail / (2 * pi * along) + highest);
     const int steps = static_cast<int>(std::ceil(tail * along / step));
     Eigen::MatrixXd filter = Eigen::MatrixXd::Zero(2 * m + 1, 2 * m + 1);

@@ -3,8 +3,6 @@
 // the diffusion of charge, all as one filter of the sampled image.
 #pragma once
 
-#include "numerics/bandlimited.hpp"
-
 #include <cstddef>
 #include <vector>
 
@@ -15,18 +13,20 @@ struct Covariance {
     bool none() const { return xx == 0 && yy == 0; }
 };
 
-// A filter as a sum of products of two symmetric sets of taps, 2m + 1 each, centre [m].
+// A filter as a sum of products of taps along x and taps along y, 2m + 1 each, centre [m]; the same
+// when turned by 180 degrees.
 struct SeparableFilter {
     struct Term {
         std::vector<double> x, y;
     };
     std::vector<Term> terms;
+    double error; // at most so many times the integral of the image's absolute spectrum
     size_t half_width() const { return terms[0].x.size() / 2; }
 };
 
 // The average over a square of `width` samples and a Gaussian of the given covariance (samples^2,
-// not negative definite), good to the interpolator's own error on band-limited images.
-SeparableFilter averaging_filter(const BandlimitedInterpolator &interpolator, double width,
-                                 const Covariance &blur);
+// not negative definite, not zero), for images with no frequency above `bandwidth` cycles per
+// sample. The error is about eps.
+SeparableFilter blurring_filter(double bandwidth, double width, const Covariance &blur, double eps);
 
 } // namespace wfpsf

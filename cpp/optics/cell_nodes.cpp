@@ -113,7 +113,8 @@ Extent extent(const Cell &cell, const Abscissa &abscissa) {
 
 } // namespace
 
-PupilNodes pupil_nodes(const std::vector<Cell> &cells, double wavenumber, double eps) {
+void pupil_nodes(const std::vector<Cell> &cells, double wavenumber, double eps,
+                 const NodeSink &sink) {
     std::vector<Abscissa> abscissae;
     std::vector<Extent> extents;
     abscissae.reserve(cells.size());
@@ -125,7 +126,7 @@ PupilNodes pupil_nodes(const std::vector<Cell> &cells, double wavenumber, double
         area += extents.back().area;
     }
     Rules rules;
-    PupilNodes nodes;
+    NodeBatches nodes(sink);
     for (size_t c = 0; c < cells.size(); ++c) {
         const Cell &cell = cells[c];
         const Abscissa &abscissa = abscissae[c];
@@ -154,7 +155,27 @@ PupilNodes pupil_nodes(const std::vector<Cell> &cells, double wavenumber, double
                 nodes.add(x, mid_y + half_y * across.x[k], weight * across.w[k]);
         }
     }
-    return nodes;
+    nodes.flush();
+}
+
+Box bounds(const std::vector<Cell> &cells) {
+    Box box{infinity, -infinity, infinity, -infinity};
+    for (const Cell &cell : cells) {
+        box.x0 = std::min(box.x0, cell.x0);
+        box.x1 = std::max(box.x1, cell.x1);
+        for (const Cell::Curve &curve : {cell.lower, cell.upper}) {
+            double low = std::min(curve.at(cell.x0), curve.at(cell.x1));
+            double high = std::max(curve.at(cell.x0), curve.at(cell.x1));
+            if (const Oval *o = std::get_if<Oval>(&curve.bound)) {
+                const double reach = std::hypot(o->shear, o->half_height);
+                low = o->y - reach;
+                high = o->y + reach;
+            }
+            box.y0 = std::min(box.y0, low);
+            box.y1 = std::max(box.y1, high);
+        }
+    }
+    return box;
 }
 
 } // namespace wfpsf

@@ -35,16 +35,20 @@ class ImageMaker {
               static_cast<int64_t>(std::ceil(optics.aperture->diameter() * settings.pixel_scale /
                                              (widest_band * shortest_wavelength)))),
           step_(settings.pixel_scale / static_cast<double>(per_pixel_)),
-          // The filters for the averages and for the interpolation err along two axes each.
-          interpolator_(optics.aperture->diameter() * step_ / shortest_wavelength, tolerance / 8),
-          tolerance_(tolerance / 2) {
+          strength_(outline_strength(optics.aperture->outline(), optics.aperture->diameter(),
+                                     optics.aperture->area())),
+          samples_(bandwidth(shortest_wavelength), static_cast<double>(per_pixel_),
+                   optics.aperture->outline(), tolerance / 2 / strength_),
+          filter_{{{samples_.averaging(), samples_.averaging()}}, 0}, tolerance_(tolerance / 2) {
         const auto samples = static_cast<double>(per_pixel_);
         const Covariance &blur = settings.blur;
-        filter_ = averaging_filter(interpolator_, samples,
-                                   {blur.xx * samples * samples, blur.xy * samples * samples,
-                                    blur.yy * samples * samples});
-        const auto reach =
-            static_cast<int64_t>(std::ceil(radius * samples)) + interpolator_.half_width();
+        if (!blur.none())
+            filter_ = blurring_filter(bandwidth(shortest_wavelength), samples,
+                                      {blur.xx * samples * samples, blur.xy * samples * samples,
+                                       blur.yy * samples * samples},
+                                      tolerance / 4 / strength_);
+        const auto reach = static_cast<int64_t>(std::ceil(radius * samples)) +
+                           samples_.interpolator().half_width();
         const auto margin = static_cast<int64_t>(filter_.half_width());
         grid_ = {2 * (reach + margin) + 1, step_};
     }
@@ -57,44 +61,43 @@ class ImageMaker {
     }
     double longest_path() const { return path(std::numbers::sqrt2 * grid_.half()); }
 
+    // An intensity averaged over the pixel and blurred, on the axes of the image.
     Plane<double> averaged(const Plane<double> &intensity, int64_t stride = 1) const {
-        return filtered(intensity.view(), filter_, stride);
+        View<const double> image = intensity.view();
+        if (settings_.mirrored)
+            image = {image.row(image.ny - 1), image.nx, image.ny, 1, -image.stride_y};
+        return filtered(image, filter_, stride);
     }
 
     struct Image {
-        Plane<double> intensity; // fraction of the light a native pixel's solid angle
-        int64_t nodes;
-        double unaberrated_peak, error, model_error; // in the same unit
+        Diffraction diffraction;
+        double scale; // intensity to the fraction of the light in a native pixel's solid angle
+        double unaberrated_peak;
     };
 
     Image at(double wavelength) const {
-        Amplitude amplitude =
-            optics_.aperture->amplitude(optics_.wavefront.scaled(optics_.wavelength / wavelength),
-                                        wavelength, grid_, tolerance_);
         const double area = optics_.aperture->area();
         const double wavelengths = settings_.pixel_scale / wavelength;
         const double scale = wavelengths * wavelengths / area;
-        const double peak = scale * area * area;
-        Image image{Plane<double>(grid_.size, grid_.size), amplitude.nodes, peak,
-                    peak * amplitude.error, peak * amplitude.model_error};
-        for (int64_t y = 0; y < grid_.size; ++y)
-            for (int64_t x = 0; x < grid_.size; ++x)
-                image.intensity(x, y) =
-                    scale *
-                    std::norm(amplitude.value(x, settings_.mirrored ? grid_.size - 1 - y : y));
-        return image;
+        return {
+            optics_.aperture->diffract(optics_.wavefront.scaled(optics_.wavelength / wavelength),
+                                       wavelength, grid_, tolerance_),
+            scale, scale * area * area};
     }
 
-    // The unaberrated peak also bounds the integral of the spectrum that the filters' errors
-    // multiply.
     Field field(const Sum &sum) const;
 
   private:
+    double bandwidth(double shortest_wavelength) const {
+        return optics_.aperture->diameter() * step_ / shortest_wavelength;
+    }
+
     const Optics &optics_;
     const PsfSettings &settings_;
     int64_t per_pixel_;
     double step_;
-    BandlimitedInterpolator interpolator_;
+    double strength_; // of the spectrum that bounds the image's
+    AveragedSamples samples_;
     SeparableFilter filter_;
     FocalGrid grid_{};
     double tolerance_; // of an intensity in units of the unaberrated peak
@@ -159,7 +162,12 @@ class ColourCheck {
 
     // `stride` grid samples lie between two of the pixels.
     static constexpr int64_t stride = 5;
-    void see(Plane<double> pixels) { images_.push_back(std::move(pixels)); }
+    void see(Plane<double> pixels, double scale) {
+        for (int64_t y = 0; y < pixels.ny(); ++y)
+            for (int64_t x = 0; x < pixels.nx(); ++x)
+                pixels(x, y) *= scale;
+        images_.push_back(std::move(pixels));
+    }
 
     // The largest error of any pixel, by two measures of which the smaller counts.
     double error(const Spectrum &spectrum, const ImageMaker &maker) const {
@@ -211,26 +219,30 @@ class ColourCheck {
     std::vector<Plane<double>> images_;
 };
 
-// A sum of images of several wavelengths for one spectrum.
+// A sum of images of several wavelengths for one spectrum, as fractions of the light.
 struct Sum {
     Plane<double> intensity;
     std::vector<double> weights;
     double unaberrated_peak = 0, error = 0, model_error = 0;
 
     void add(const ImageMaker::Image &image, double weight) {
+        const Diffraction &d = image.diffraction;
+        const int64_t nx = d.intensity.nx(), ny = d.intensity.ny();
         if (intensity.nx() == 0)
-            intensity = Plane<double>(image.intensity.nx(), image.intensity.ny());
-        for (int64_t y = 0; y < intensity.ny(); ++y)
-            for (int64_t x = 0; x < intensity.nx(); ++x)
-                intensity(x, y) += weight * image.intensity(x, y);
-        unaberrated_peak += std::abs(weight) * image.unaberrated_peak;
-        error += std::abs(weight) * image.error;
-        model_error += std::abs(weight) * image.model_error;
+            intensity = Plane<double>(nx, ny);
+        const double scale = weight * image.scale;
+        for (int64_t y = 0; y < ny; ++y)
+            for (int64_t x = 0; x < nx; ++x)
+                intensity(x, y) += scale * d.intensity(x, y);
+        const double peak = std::abs(weight) * image.unaberrated_peak;
+        unaberrated_peak += peak;
+        error += peak * d.error;
+        model_error += peak * d.model_error;
     }
 };
 
 Field ImageMaker::field(const Sum &sum) const {
-    Field field(interpolator_);
+    Field field(samples_.interpolator());
     field.per_pixel = per_pixel_;
     field.grid_size = grid_.size;
     field.value = averaged(sum.intensity);
@@ -238,7 +250,9 @@ Field ImageMaker::field(const Sum &sum) const {
         for (int64_t x = 0; x < field.value.nx(); ++x)
             field.peak = std::max(field.peak, field.value(x, y));
     // A stamp's brightest pixel may be half the largest possible one.
-    field.error = 2 / field.peak * (sum.error + 4 * interpolator_.error() * sum.unaberrated_peak);
+    field.error =
+        2 / field.peak *
+        (sum.error + strength_ * sum.unaberrated_peak * (samples_.error() + filter_.error));
     field.model_error = 2 / field.peak * sum.model_error;
     return field;
 }
@@ -258,8 +272,10 @@ Attempt attempt(const ImageMaker &maker, const WavelengthRule &rule,
     for (size_t k = 0; k < rule.size(); ++k) {
         progress.report(static_cast<double>(k) / static_cast<double>(rule.size()));
         const ImageMaker::Image image = maker.at(rule.wavelengths()[k]);
-        check.see(maker.averaged(image.intensity, ColourCheck::stride));
-        nodes += image.nodes;
+        if (!rule.exact())
+            check.see(maker.averaged(image.diffraction.intensity, ColourCheck::stride),
+                      image.scale);
+        nodes += image.diffraction.nodes;
         for (Sum &sum : sums)
             sum.add(image, sum.weights[k]);
     }

@@ -43,6 +43,9 @@ std::vector<Cell> lit_cells(const LitRegion &region);
 
 // Nodes that integrate functions oscillating with up to `wavenumber` radians per unit of length to
 // about `eps` of the cells' area.
-PupilNodes pupil_nodes(const std::vector<Cell> &cells, double wavenumber, double eps);
+void pupil_nodes(const std::vector<Cell> &cells, double wavenumber, double eps,
+                 const NodeSink &sink);
+
+Box bounds(const std::vector<Cell> &cells);
 
 } // namespace wfpsf

@@ -35,12 +35,6 @@ Matrix waves(const FocalGrid &grid, const double *u, int64_t count, double k) {
     return out;
 }
 
-Plane<Complex> to_plane(const Matrix &matrix) {
-    Plane<Complex> plane(matrix.rows(), matrix.cols());
-    Eigen::Map<Matrix>(plane.view().data, matrix.rows(), matrix.cols()) = matrix;
-    return plane;
-}
-
 class MaskAperture final : public Aperture {
   public:
     MaskAperture(View<const double> mask, double scale, double axis_x, double axis_y)
@@ -76,8 +70,8 @@ class MaskAperture final : public Aperture {
         diameter_ = static_cast<double>(std::max(lit_.nx(), lit_.ny())) * scale;
     }
 
-    Amplitude amplitude(const Wavefront &wavefront, double wavelength, const FocalGrid &grid,
-                        double) const override {
+    Diffraction diffract(const Wavefront &wavefront, double wavelength, const FocalGrid &grid,
+                         double) const override {
         constexpr int64_t rows = 128;
         const double k = 2 * pi / wavelength;
         const Matrix along_x = waves(grid, u_.data(), lit_.nx(), k);
@@ -99,12 +93,14 @@ class MaskAperture final : public Aperture {
             const Matrix transformed = along_x * field;
             sum.noalias() += transformed * along_y.transpose();
         }
+        Plane<double> intensity(grid.size, grid.size);
         for (int64_t y = 0; y < grid.size; ++y)
             for (int64_t x = 0; x < grid.size; ++x)
-                sum(x, y) *= square(k * grid.angle(x)) * square(k * grid.angle(y));
+                intensity(x, y) =
+                    std::norm(sum(x, y) * square(k * grid.angle(x)) * square(k * grid.angle(y)));
         // One phase a pixel: the wavefront's slope is lost inside it, to second order.
         const double turn = 2 * pi * wavefront.slope_bound() * scale_;
-        return {to_plane(sum), lit_.nx() * lit_.ny(), rounding, turn * turn / 12};
+        return {std::move(intensity), lit_.nx() * lit_.ny(), rounding, turn * turn / 12};
     }
 
   private:

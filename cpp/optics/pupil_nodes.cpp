@@ -70,7 +70,7 @@ Point crossing(const Edge &edge, double inset, Point c, double radius) {
 }
 
 // The quadrilateral between two arcs, ruled by straight lines: x(s, t) = (1-t) inner + t outer.
-void add_ruled(PupilNodes &nodes, const Arc &inner, const Arc &outer, const GaussLegendre &along,
+void add_ruled(NodeBatches &nodes, const Arc &inner, const Arc &outer, const GaussLegendre &along,
                const GaussLegendre &across) {
     for (size_t i = 0; i < along.x.size(); ++i) {
         const double s = (1 + along.x[i]) / 2;
@@ -89,7 +89,7 @@ void add_ruled(PupilNodes &nodes, const Arc &inner, const Arc &outer, const Gaus
 // whose fourth side has shrunk to the corner: fillet(s) at t = 0, the straight edge at s = 0, the
 // circle's arc at s = 1, the corner at t = 1. The patch may fold by a hair at the tangent points:
 // the Jacobian keeps its sign there, and the folds cancel.
-void subtract_sliver(PupilNodes &nodes, const Arc &fillet, const Arc &side, Point corner,
+void subtract_sliver(NodeBatches &nodes, const Arc &fillet, const Arc &side, Point corner,
                      const GaussLegendre &rule) {
     const Point end = side.at(0);
     const double orientation = std::copysign(1, cross(end - fillet.at(0), corner - fillet.at(0)));
@@ -112,7 +112,7 @@ struct Rim {
     double side; // +1: the lit side is outside the circle, -1: inside
 };
 
-void subtract_corner(PupilNodes &nodes, const Edge &edge, const Rim &rim, double corner_radius,
+void subtract_corner(NodeBatches &nodes, const Edge &edge, const Rim &rim, double corner_radius,
                      const GaussLegendre &rule) {
     const Point c = centre(rim.circle);
     const double radius = rim.circle.radius;
@@ -127,20 +127,26 @@ void subtract_corner(PupilNodes &nodes, const Edge &edge, const Rim &rim, double
 
 } // namespace
 
-void PupilNodes::add(double node_x, double node_y, double node_weight) {
-    x.push_back(node_x);
-    y.push_back(node_y);
-    weight.push_back(node_weight);
+NodeBatches::NodeBatches(const NodeSink &sink) : sink_(sink) {
+    for (std::vector<double> *values : {&nodes_.x, &nodes_.y, &nodes_.weight})
+        values->reserve(largest);
 }
 
-PupilNodes pupil_nodes(const SegmentedPupil &pupil, double wavenumber, double eps) {
+void NodeBatches::flush() {
+    if (nodes_.size() > 0)
+        sink_(nodes_);
+    for (std::vector<double> *values : {&nodes_.x, &nodes_.y, &nodes_.weight})
+        values->clear();
+}
+
+void pupil_nodes(const SegmentedPupil &pupil, double wavenumber, double eps, const NodeSink &sink) {
     const Rim outer{pupil.outer, -1}, inner{pupil.obscuration, 1};
     const double width = (pupil.outer.radius - pupil.obscuration.radius) / 2;
     const GaussLegendre across(gauss_legendre_points(wavenumber * width, eps));
     // All slivers together are a thousandth of the lit area.
     const GaussLegendre corner(
         2 + gauss_legendre_points(wavenumber * pupil.corner_radius, std::min(0.1, 1000 * eps)));
-    PupilNodes nodes;
+    NodeBatches nodes(sink);
     for (const PupilSegment &segment : pupil.segments) {
         const HalfPlane &cw = segment.clockwise_edge, &ccw = segment.counterclockwise_edge;
         const Point na{cw.nx, cw.ny}, nb{ccw.nx, ccw.ny};
@@ -164,16 +170,16 @@ PupilNodes pupil_nodes(const SegmentedPupil &pupil, double wavenumber, double ep
                 for (const Rim &rim : {inner, outer})
                     subtract_corner(nodes, edge, rim, pupil.corner_radius, corner);
     }
-    return nodes;
+    nodes.flush();
 }
 
-PupilNodes pupil_nodes(const AnnularPupil &pupil, double wavenumber, double eps) {
+void pupil_nodes(const AnnularPupil &pupil, double wavenumber, double eps, const NodeSink &sink) {
     const double width = (pupil.outer_radius - pupil.inner_radius) / 2;
     const GaussLegendre radial(gauss_legendre_points(wavenumber * width, eps));
     // Equal steps in angle err by the Bessel function of their count's order, like a Gauss rule of
     // half as many points.
     const int spokes = 2 * gauss_legendre_points(wavenumber * pupil.outer_radius, eps);
-    PupilNodes nodes;
+    NodeBatches nodes(sink);
     for (size_t i = 0; i < radial.x.size(); ++i) {
         const double r = pupil.inner_radius + width * (1 + radial.x[i]);
         const double weight = radial.w[i] * width * r * 2 * pi / spokes;
@@ -182,7 +188,17 @@ PupilNodes pupil_nodes(const AnnularPupil &pupil, double wavenumber, double eps)
             nodes.add(r * std::cos(a), r * std::sin(a), weight);
         }
     }
-    return nodes;
+    nodes.flush();
+}
+
+Box bounds(const SegmentedPupil &pupil) {
+    const auto &[x, y, radius] = pupil.outer;
+    return {x - radius, x + radius, y - radius, y + radius};
+}
+
+Box bounds(const AnnularPupil &pupil) {
+    const double r = pupil.outer_radius;
+    return {-r, r, -r, r};
 }
 
 } // namespace wfpsf

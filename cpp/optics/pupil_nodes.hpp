@@ -6,6 +6,7 @@
 #include "instrument/pupil.hpp"
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 namespace wfpsf {
@@ -14,12 +15,52 @@ namespace wfpsf {
 struct PupilNodes {
     std::vector<double> x, y, weight;
     size_t size() const { return x.size(); }
-    void add(double node_x, double node_y, double node_weight);
 };
+
+// Takes some of the nodes; called until all are done, so that they never stand in memory together.
+using NodeSink = std::function<void(const PupilNodes &)>;
 
 // Nodes that integrate functions oscillating with up to `wavenumber` radians per metre to about
 // `eps` of the lit area. The rounded corners of a segment are slivers with negative weights.
-PupilNodes pupil_nodes(const SegmentedPupil &pupil, double wavenumber, double eps);
-PupilNodes pupil_nodes(const AnnularPupil &pupil, double wavenumber, double eps);
+void pupil_nodes(const SegmentedPupil &pupil, double wavenumber, double eps, const NodeSink &sink);
+void pupil_nodes(const AnnularPupil &pupil, double wavenumber, double eps, const NodeSink &sink);
+
+// Nothing lit reaches beyond.
+struct Box {
+    double x0, x1, y0, y1;
+};
+Box bounds(const SegmentedPupil &pupil);
+Box bounds(const AnnularPupil &pupil);
+
+// All nodes at once.
+template <class Pupil> PupilNodes pupil_nodes(const Pupil &pupil, double wavenumber, double eps) {
+    PupilNodes all;
+    pupil_nodes(pupil, wavenumber, eps, [&all](const PupilNodes &some) {
+        all.x.insert(all.x.end(), some.x.begin(), some.x.end());
+        all.y.insert(all.y.end(), some.y.begin(), some.y.end());
+        all.weight.insert(all.weight.end(), some.weight.begin(), some.weight.end());
+    });
+    return all;
+}
+
+// Collects nodes into batches of a size that stays in the cache.
+class NodeBatches {
+  public:
+    explicit NodeBatches(const NodeSink &sink);
+    void add(double x, double y, double weight) {
+        nodes_.x.push_back(x);
+        nodes_.y.push_back(y);
+        nodes_.weight.push_back(weight);
+        if (nodes_.size() == largest)
+            flush();
+    }
+    // Hands on what is left.
+    void flush();
+
+  private:
+    static constexpr size_t largest = 1024;
+    const NodeSink &sink_;
+    PupilNodes nodes_;
+};
 
 } // namespace wfpsf

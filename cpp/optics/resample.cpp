@@ -4,114 +4,154 @@
 #include "numerics/dispatch.hpp"
 
 #include <algorithm>
-#include <cstring>
 #include <numeric>
+#include <utility>
 
 namespace wfpsf {
 
 namespace {
 
-// Output row i = sum over k of weights[(phase + i) % phases][k] * row(first[i] + k) of the input.
-// Places that fall on the same fraction of a sample share their weights.
-struct RowSums {
-    std::vector<int64_t> first;
-    std::vector<std::vector<double>> weights;
-    int64_t phase = 0;
+// Outputs are summed in blocks of so many, always whole ones, so that the bits of one do not depend
+// on where a range ends. The compiler keeps a block in vector registers; a shorter one it unrolls,
+// and makes no vectors of.
+constexpr int64_t block = 32;
 
-    const std::vector<double> &weights_of(int64_t i) const {
-        return weights[static_cast<size_t>(phase + i) % weights.size()];
+int64_t blocks_for(int64_t count) {
+    return (count + block - 1) / block * block;
+}
+
+// Sums along one axis: output i = q * phases + r takes weights[r] from input first[r] + q * step
+// on. Places that fall on the same fraction of a sample share their weights.
+struct Sums {
+    int64_t begin, count; // outputs begin..begin+count-1
+    int64_t phases, step; // outputs and inputs after which the weights repeat
+    int64_t taps;
+    std::vector<double> weights; // [phase * taps + tap]
+    std::vector<int64_t> first;  // input of tap 0, by phase
+
+    int64_t phase_of(int64_t i) const { return (begin + i) % phases; }
+    const double *weights_of(int64_t i) const {
+        return &weights[static_cast<size_t>(phase_of(i) * taps)];
     }
-    int64_t rows_begin() const { return first.front(); }
-    int64_t rows_end() const { return first.back() + static_cast<int64_t>(weights[0].size()); }
+    int64_t first_of(int64_t i) const {
+        return first[static_cast<size_t>(phase_of(i))] + (begin + i) / phases * step;
+    }
+    int64_t inputs_begin() const { return first_of(0); }
 };
 
-RowSums interpolating_sums(const BandlimitedInterpolator &interpolator, const Positions &p) {
-    const int64_t phases =
-        std::max<int64_t>(1, p.denominator / std::gcd(p.numerator, p.denominator));
-    RowSums sums;
-    sums.phase = p.first % phases;
-    std::vector<int64_t> first_of_phase;
-    for (int64_t i = 0; i < std::min(phases, p.first + p.count); ++i) {
-        std::vector<double> &w =
-            sums.weights.emplace_back(static_cast<size_t>(interpolator.taps()));
+Sums interpolating_sums(const BandlimitedInterpolator &interpolator, const Positions &p) {
+    const int64_t common = std::gcd(p.numerator, p.denominator);
+    const int64_t phases = p.denominator / common;
+    Sums sums{p.first, p.count, phases, p.numerator / common, interpolator.taps(), {}, {}};
+    sums.weights.resize(static_cast<size_t>(phases * sums.taps));
+    sums.first.resize(static_cast<size_t>(phases));
+    for (int64_t r = 0; r < std::min(phases, p.first + p.count); ++r) {
         const double place =
-            p.start + static_cast<double>(i * p.numerator) / static_cast<double>(p.denominator);
-        first_of_phase.push_back(interpolator.weights(place, w.data()));
-    }
-    for (int64_t i = p.first; i < p.first + p.count; ++i) {
-        const int64_t phase = i % phases;
-        sums.first.push_back(first_of_phase[static_cast<size_t>(phase)] +
-                             (i - phase) * p.numerator / p.denominator);
+            p.start + static_cast<double>(r * p.numerator) / static_cast<double>(p.denominator);
+        sums.first[static_cast<size_t>(r)] =
+            interpolator.weights(place, &sums.weights[static_cast<size_t>(r * sums.taps)]);
     }
     return sums;
 }
 
-typedef double Two
-    __attribute__((vector_size(16))); // wider ones are lowered badly where they are split
-constexpr int64_t block = 16;
-
-// sums[x] = sum over k of weights[k] * rows[k * stride + x] for a block of columns, which stays in
-// registers over all rows.
-[[gnu::always_inline]] inline void sum_block(const double *rows, int64_t stride,
-                                             const std::vector<double> &weights, double *sums) {
-    Two a{}, b{}, c{}, d{}, e{}, f{}, g{}, h{};
-    const auto add =
-        [](Two & sum, double weight, const double *pixels) __attribute__((always_inline)) {
-        Two two;
-        std::memcpy(&two, pixels, sizeof two);
-        sum += weight * two;
-    };
-    for (const double weight : weights) {
-        add(a, weight, rows);
-        add(b, weight, rows + 2);
-        add(c, weight, rows + 4);
-        add(d, weight, rows + 6);
-        add(e, weight, rows + 8);
-        add(f, weight, rows + 10);
-        add(g, weight, rows + 12);
-        add(h, weight, rows + 14);
-        rows += stride;
-    }
-    for (const Two &sum : {a, b, c, d, e, f, g, h}) {
-        std::memcpy(sums, &sum, sizeof sum);
-        sums += 2;
+// sums[i] = sum over the taps of weights[tap] * input(tap)[i], for whole blocks of i. The taps of
+// one remainder modulo `step` read from starts[remainder] on, each `stride` after the one before.
+WFPSF_VECTORISED void sum_blocks(const double *weights, int64_t taps, const double *const *starts,
+                                 int64_t step, int64_t stride, int64_t count, double *sums) {
+    for (int64_t begin = 0; begin < count; begin += block) {
+        double registers[block];
+        for (int64_t i = 0; i < block; ++i)
+            registers[i] = 0;
+        for (int64_t remainder = 0; remainder < step; ++remainder) {
+            const double *__restrict inputs = starts[remainder] + begin;
+            for (int64_t tap = remainder; tap < taps; tap += step, inputs += stride)
+                for (int64_t i = 0; i < block; ++i)
+                    registers[i] += weights[tap] * inputs[i];
+        }
+        for (int64_t i = 0; i < block; ++i)
+            sums[begin + i] = registers[i];
     }
 }
 
-// The same for the last columns, fewer than a block; inline, so that it rounds as the block does.
-[[gnu::always_inline]] inline void sum_rest(const double *rows, int64_t stride,
-                                            const std::vector<double> &weights, int64_t columns,
-                                            double *sums) {
-    std::fill_n(sums, columns, 0.0);
-    for (const double weight : weights) {
-        for (int64_t x = 0; x < columns; ++x)
-            sums[x] += weight * rows[x];
-        rows += stride;
+// Samples of a row, sorted by their remainder modulo the step: sample i is at
+// (i % step) * run + i / step. Neighbouring outputs then take neighbouring inputs.
+template <int64_t step>
+[[gnu::always_inline]] inline void sort_by_known(const double *__restrict line, int64_t run,
+                                                 double *__restrict sorted) {
+    for (int64_t i = 0; i < run; ++i)
+        for (int64_t remainder = 0; remainder < step; ++remainder)
+            sorted[remainder * run + i] = line[i * step + remainder];
+}
+
+WFPSF_VECTORISED void sort_by_remainder(const double *line, int64_t step, int64_t run,
+                                        double *sorted) {
+    switch (step) { // the usual ones: vector instructions
+    case 2:
+        return sort_by_known<2>(line, run, sorted);
+    case 3:
+        return sort_by_known<3>(line, run, sorted);
+    case 4:
+        return sort_by_known<4>(line, run, sorted);
+    case 5:
+        return sort_by_known<5>(line, run, sorted);
+    case 6:
+        return sort_by_known<6>(line, run, sorted);
+    default:
+        for (int64_t remainder = 0; remainder < step; ++remainder)
+            for (int64_t i = 0; i < run; ++i)
+                sorted[remainder * run + i] = line[i * step + remainder];
     }
 }
 
-// Sums of whole rows, written transposed, so that the same pass done twice treats both axes and
-// restores the order. Input columns begin..end only.
-WFPSF_VECTORISED Plane<double> sum_rows_transposed(View<const double> in, const RowSums &sums,
-                                                   int64_t begin, int64_t end) {
-    const auto count = static_cast<int64_t>(sums.first.size());
-    Plane<double> out(count, end - begin);
-    double *const pixels = out.view().data;
-    for (int64_t j = 0; j < count; ++j) {
-        const std::vector<double> &weights = sums.weights_of(j);
-        const double *rows = in.row(sums.first[static_cast<size_t>(j)]) + begin;
-        for (int64_t x = 0; x < out.ny(); x += block) {
-            double line[block];
-            const int64_t columns = std::min(block, out.ny() - x);
-            if (columns == block)
-                sum_block(rows + x, in.stride_y, weights, line);
-            else
-                sum_rest(rows + x, in.stride_y, weights, columns, line);
-            for (int64_t i = 0; i < columns; ++i)
-                pixels[(x + i) * count + j] = line[i];
+// A row of sums along y at a time, then the sums along x. The grid is a block wide at least.
+template <class T>
+void sum_both_axes(View<const double> in, const Sums &x, const Sums &y, double scale, View<T> out) {
+    // Whole cache lines, where the grid's rows are such.
+    const int64_t origin = std::min(x.inputs_begin() / 8 * 8, in.nx - block);
+    const int64_t columns = x.first_of(x.count - 1) + x.taps - origin;
+    const int64_t inside = std::min(blocks_for(columns), (in.nx - origin) / block * block);
+    const int64_t step = x.step, run = (columns + step - 1) / step;
+    // A block may read beyond the samples: zeros, or another remainder's.
+    const auto buffer = [](int64_t size) { return Plane<double>(blocks_for(size) + block, 1); };
+    Plane<double> line_buffer = buffer(run * step), sorted_buffer = buffer(run * step),
+                  sums_buffer = buffer((x.count + x.phases - 1) / x.phases);
+    double *const sorted = sorted_buffer.view().data, *const sums = sums_buffer.view().data;
+    double *const line = step == 1 ? sorted : line_buffer.view().data;
+    std::vector<const double *> starts(static_cast<size_t>(step));
+    for (int64_t j = 0; j < y.count; ++j) {
+        const double *const rows = in.row(y.first_of(j)) + origin;
+        sum_blocks(y.weights_of(j), y.taps, &rows, 1, in.stride_y, inside, line);
+        if (inside < columns) {
+            const double *const last = rows + in.nx - origin - block;
+            sum_blocks(y.weights_of(j), y.taps, &last, 1, in.stride_y, block,
+                       line + in.nx - origin - block);
+        }
+        if (step > 1)
+            sort_by_remainder(line, step, run, sorted);
+        for (int64_t phase = 0; phase < std::min(x.phases, x.count); ++phase) {
+            for (int64_t remainder = 0; remainder < step; ++remainder) {
+                const int64_t input = x.first_of(phase) - origin + remainder;
+                starts[static_cast<size_t>(remainder)] = sorted + input % step * run + input / step;
+            }
+            const int64_t count = (x.count - phase + x.phases - 1) / x.phases;
+            sum_blocks(x.weights_of(phase), x.taps, starts.data(), step, 1, count, sums);
+            T *pixel = &out(phase, j);
+            for (int64_t i = 0; i < count; ++i, pixel += out.stride_x * x.phases)
+                *pixel = static_cast<T>(scale * sums[i]);
         }
     }
-    return out;
+}
+
+// A grid narrower than a block gets zeros beside it.
+template <class T>
+void sum_both_axes_of_any(View<const double> in, const Sums &x, const Sums &y, double scale,
+                          View<T> out) {
+    if (in.nx >= block)
+        return sum_both_axes(in, x, y, scale, out);
+    Plane<double> wide(block, in.ny);
+    for (int64_t j = 0; j < in.ny; ++j)
+        std::copy_n(in.row(j), in.nx, wide.view().row(j));
+    sum_both_axes(std::as_const(wide).view(), x, y, scale, out);
 }
 
 } // namespace
@@ -119,16 +159,8 @@ WFPSF_VECTORISED Plane<double> sum_rows_transposed(View<const double> in, const 
 template <class T>
 void resample(View<const double> grid, const BandlimitedInterpolator &interpolator,
               const Positions &x, const Positions &y, double scale, View<T> out) {
-    RowSums along_x = interpolating_sums(interpolator, x);
-    const int64_t begin = along_x.rows_begin();
-    const Plane<double> half =
-        sum_rows_transposed(grid, interpolating_sums(interpolator, y), begin, along_x.rows_end());
-    for (int64_t &first : along_x.first)
-        first -= begin;
-    const Plane<double> whole = sum_rows_transposed(half.view(), along_x, 0, half.nx());
-    for (int64_t j = 0; j < out.ny; ++j)
-        for (int64_t i = 0; i < out.nx; ++i)
-            out(i, j) = static_cast<T>(scale * whole(i, j));
+    sum_both_axes_of_any(grid, interpolating_sums(interpolator, x),
+                         interpolating_sums(interpolator, y), scale, out);
 }
 
 template void resample(View<const double>, const BandlimitedInterpolator &, const Positions &,
@@ -138,24 +170,21 @@ template void resample(View<const double>, const BandlimitedInterpolator &, cons
 
 Plane<double> filtered(View<const double> grid, const SeparableFilter &filter, int64_t stride) {
     const auto shrunk = [stride](int64_t n, const std::vector<double> &taps) {
-        RowSums sums;
-        sums.weights = {taps};
-        for (int64_t first = 0; first + static_cast<int64_t>(taps.size()) <= n; first += stride)
-            sums.first.push_back(first);
-        return sums;
+        const auto count = static_cast<int64_t>(taps.size());
+        return Sums{0, (n - count) / stride + 1, 1, stride, count, taps, {0}};
     };
     Plane<double> sum;
     for (const SeparableFilter::Term &term : filter.terms) {
-        const Plane<double> half = sum_rows_transposed(grid, shrunk(grid.ny, term.y), 0, grid.nx);
-        Plane<double> product =
-            sum_rows_transposed(half.view(), shrunk(grid.nx, term.x), 0, half.nx());
+        const Sums x = shrunk(grid.nx, term.x), y = shrunk(grid.ny, term.y);
+        auto product = Plane<double>::with_aligned_rows(x.count, y.count);
+        sum_both_axes_of_any(grid, x, y, 1, product.view());
         if (sum.nx() == 0) {
             sum = std::move(product);
             continue;
         }
-        for (int64_t y = 0; y < sum.ny(); ++y)
-            for (int64_t x = 0; x < sum.nx(); ++x)
-                sum(x, y) += product(x, y);
+        for (int64_t j = 0; j < sum.ny(); ++j)
+            for (int64_t i = 0; i < sum.nx(); ++i)
+                sum(i, j) += product(i, j);
     }
     return sum;
 }

@@ -2,7 +2,10 @@
 #include "optics/wavefront.hpp"
 
 #include "error/error.hpp"
+#include "numerics/dispatch.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 
@@ -23,6 +26,42 @@ Noll noll_orders(int j) {
 
 double factorial(int n) {
     return std::tgamma(n + 1.0);
+}
+
+constexpr size_t block = 32; // points evaluated together
+using Block = std::array<double, block>;
+
+// sum += polynomial(t) factor
+[[gnu::always_inline]] inline void add_order(const std::vector<double> &polynomial, const Block &t,
+                                             const Block &factor, Block &sum) {
+    if (polynomial.empty())
+        return;
+    Block value;
+    value.fill(polynomial.back());
+    for (size_t k = polynomial.size() - 1; k-- > 0;)
+        for (size_t i = 0; i < block; ++i)
+            value[i] = value[i] * t[i] + polynomial[k];
+    for (size_t i = 0; i < block; ++i)
+        sum[i] += value[i] * factor[i];
+}
+
+WFPSF_VECTORISED void add_orders(const std::vector<ZernikeOrder> &orders, const Block &x,
+                                 const Block &y, Block &sum) {
+    Block t, re, im;
+    for (size_t i = 0; i < block; ++i) {
+        t[i] = x[i] * x[i] + y[i] * y[i];
+        re[i] = 1;
+        im[i] = 0;
+    }
+    for (const ZernikeOrder &order : orders) {
+        add_order(order.cosine, t, re, sum);
+        add_order(order.sine, t, im, sum);
+        for (size_t i = 0; i < block; ++i) {
+            const double turned = re[i] * x[i] - im[i] * y[i];
+            im[i] = re[i] * y[i] + im[i] * x[i];
+            re[i] = turned;
+        }
+    }
 }
 
 double horner(const std::vector<double> &polynomial, double t) {
@@ -48,7 +87,7 @@ Wavefront::Wavefront(std::span<const double> coefficients, double radius) : radi
         const auto [n, m] = noll_orders(j);
         if (orders_.size() <= static_cast<size_t>(m))
             orders_.resize(static_cast<size_t>(m) + 1);
-        Order &order = orders_[static_cast<size_t>(m)];
+        ZernikeOrder &order = orders_[static_cast<size_t>(m)];
         std::vector<double> &polynomial = m > 0 && j % 2 ? order.sine : order.cosine;
         if (polynomial.size() <= static_cast<size_t>((n - m) / 2))
             polynomial.resize(static_cast<size_t>((n - m) / 2) + 1);
@@ -64,7 +103,7 @@ Wavefront::Wavefront(std::span<const double> coefficients, double radius) : radi
 
 Wavefront Wavefront::scaled(double factor) const {
     Wavefront copy = *this;
-    for (Order &order : copy.orders_)
+    for (ZernikeOrder &order : copy.orders_)
         for (std::vector<double> *polynomial : {&order.cosine, &order.sine})
             for (double &a : *polynomial)
                 a *= factor;
@@ -77,11 +116,25 @@ double Wavefront::operator()(double x, double y) const {
     const double t = std::norm(z);
     std::complex<double> power = 1;
     double sum = 0;
-    for (const Order &order : orders_) {
+    for (const ZernikeOrder &order : orders_) {
         sum += horner(order.cosine, t) * power.real() + horner(order.sine, t) * power.imag();
         power *= z;
     }
     return sum;
+}
+
+void Wavefront::evaluate(std::span<const double> x, std::span<const double> y,
+                         double *waves) const {
+    for (size_t first = 0; first < x.size(); first += block) {
+        const size_t count = std::min(block, x.size() - first);
+        Block u{}, v{}, sum{};
+        for (size_t i = 0; i < count; ++i) {
+            u[i] = x[first + i] / radius_;
+            v[i] = y[first + i] / radius_;
+        }
+        add_orders(orders_, u, v, sum);
+        std::copy_n(sum.begin(), count, waves + first);
+    }
 }
 
 } // namespace wfpsf

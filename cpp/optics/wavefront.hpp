@@ -8,6 +8,12 @@
 
 namespace wfpsf {
 
+// All polynomials of azimuthal order m: polynomials in r^2 that multiply r^m cos m theta and
+// r^m sin m theta.
+struct ZernikeOrder {
+    std::vector<double> cosine, sine;
+};
+
 // W(x, y) = sum_j a_j Z_j(x / radius, y / radius), in the unit of the coefficients (waves).
 class Wavefront {
   public:
@@ -17,6 +23,8 @@ class Wavefront {
     Wavefront(std::span<const double> coefficients, double radius);
 
     double operator()(double x, double y) const;
+    // The same at many points.
+    void evaluate(std::span<const double> x, std::span<const double> y, double *waves) const;
 
     // All of it `factor` times.
     Wavefront scaled(double factor) const;
@@ -25,11 +33,7 @@ class Wavefront {
     double slope_bound() const { return slope_bound_; }
 
   private:
-    // Per azimuthal order m: polynomials in r^2 that multiply r^m cos m theta and r^m sin m theta.
-    struct Order {
-        std::vector<double> cosine, sine;
-    };
-    std::vector<Order> orders_;
+    std::vector<ZernikeOrder> orders_;
     double radius_, slope_bound_ = 0;
 };
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numerics/fft.hpp"
 #include "numerics/nufft.hpp"
+#include "numerics/phasor.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <gtest/gtest.h>
+#include <numbers>
 #include <random>
+#include <span>
 #include <vector>
 
 namespace wfpsf {
@@ -40,14 +43,35 @@ struct Sources {
     }
 };
 
+// All modes, the sources added in two batches and the rows asked for in strips.
+std::vector<Complex> transform(const Sources &sources, Type1Transform::Band band, int64_t K,
+                               double eps, int64_t strip) {
+    Type1Transform nufft(band, band, K, eps);
+    const std::span<const double> a(sources.a), b(sources.b);
+    const std::span<const Complex> c(sources.c);
+    const size_t half = c.size() / 2;
+    nufft.add(a.first(half), b.first(half), c.first(half));
+    nufft.add(a.subspan(half), b.subspan(half), c.subspan(half));
+    std::vector<Complex> out;
+    for (int64_t first = -K; first <= K; first += strip) {
+        int64_t expected = first;
+        nufft.rows(first, std::min(first + strip - 1, K),
+                   [&](int64_t jy, std::span<const Complex> modes) {
+                       EXPECT_EQ(jy, expected++);
+                       EXPECT_EQ(modes.size(), static_cast<size_t>(2 * K + 1));
+                       out.insert(out.end(), modes.begin(), modes.end());
+                   });
+    }
+    return out;
+}
+
 TEST(Nufft, MeetsTheDirectSumWithinTheToleranceAskedFor) {
     for (const int64_t K : {0, 1, 7, 40})
         for (const double reach : {0.01, 0.8, 3.14})
             for (const double eps : {1e-1, 1e-3, 1e-5, 1e-7, 1e-9, 1e-11, 1e-13}) {
                 const Sources sources(60, reach);
                 const int64_t modes = 2 * K + 1;
-                std::vector<Complex> out(static_cast<size_t>(modes * modes));
-                nufft_type1(sources.a, sources.b, sources.c, K, eps, out.data());
+                const std::vector<Complex> out = transform(sources, {-reach, reach}, K, eps, modes);
                 double worst = 0;
                 for (int64_t jy = -K; jy <= K; jy += std::max<int64_t>(1, K / 5))
                     for (int64_t jx = -K; jx <= K; jx += std::max<int64_t>(1, K / 5))
@@ -58,11 +82,43 @@ TEST(Nufft, MeetsTheDirectSumWithinTheToleranceAskedFor) {
             }
 }
 
+TEST(Nufft, StripsGiveTheBitsOfTheWhole) {
+    const Sources sources(60, 0.8);
+    const std::vector<Complex> whole = transform(sources, {-0.9, 0.8}, 20, 1e-8, 41);
+    for (const int64_t strip : {1, 7, 40})
+        EXPECT_EQ(transform(sources, {-0.9, 0.8}, 20, 1e-8, strip), whole) << strip;
+}
+
+// Sources at the very ends of a band that lies off the origin.
+TEST(Nufft, BandMayEndAtItsSources) {
+    Sources sources(2, 1);
+    sources.a = sources.b = {0.25, 1.75};
+    for (const double eps : {1e-2, 1e-6, 1e-12}) {
+        const std::vector<Complex> out = transform(sources, {0.25, 1.75}, 5, eps, 11);
+        EXPECT_LE(std::abs(out[0] - sources.direct(-5, -5)), eps * sources.strength);
+        EXPECT_LE(std::abs(out[120] - sources.direct(5, 5)), eps * sources.strength);
+    }
+}
+
 TEST(Nufft, NoSourcesGiveZeros) {
-    std::vector<Complex> out(9, 1.0);
-    nufft_type1({}, {}, {}, 1, 1e-6, out.data());
-    for (const Complex value : out)
-        EXPECT_EQ(value, 0.0);
+    Type1Transform({-1, 1}, {-1, 1}, 1, 1e-6)
+        .rows(-1, 1, [](int64_t, std::span<const Complex> modes) {
+            for (const Complex value : modes)
+                EXPECT_EQ(value, 0.0);
+        });
+}
+
+TEST(Phasor, IsGoodToRounding) {
+    for (int i = -4000; i <= 4000; ++i)
+        for (const double scale : {0.000131, 0.0625, 0.125, 7.77, 1e5}) {
+            const double t = i * scale;
+            double cosine, sine;
+            phasor(t, cosine, sine);
+            const long double rest = static_cast<long double>(t) - std::round(t);
+            const long double angle = 2 * std::numbers::pi_v<long double> * rest;
+            EXPECT_NEAR(cosine, static_cast<double>(std::cos(angle)), 5e-16) << t;
+            EXPECT_NEAR(sine, static_cast<double>(std::sin(angle)), 5e-16) << t;
+        }
 }
 
 TEST(Fft, GoodLengthsHaveSmallFactorsAndAreNoLongPowersOfTwo) {

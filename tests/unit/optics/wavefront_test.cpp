@@ -79,6 +79,26 @@ TEST(Wavefront, SlopeBoundHolds) {
     }
 }
 
+TEST(Wavefront, ManyPointsGiveTheSameAsEachByItself) {
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    std::vector<double> coefficients(231);
+    for (double &a : coefficients)
+        a = normal(random);
+    const Wavefront w(coefficients, 1.18);
+    for (const size_t count : {0, 1, 31, 32, 33, 100}) {
+        std::vector<double> x(count), y(count), waves(count);
+        for (size_t i = 0; i < count; ++i) {
+            const double r = 1.18 * static_cast<double>(i) / static_cast<double>(count);
+            x[i] = r * std::cos(static_cast<double>(i));
+            y[i] = r * std::sin(static_cast<double>(i));
+        }
+        w.evaluate(x, y, waves.data());
+        for (size_t i = 0; i < count; ++i)
+            EXPECT_NEAR(waves[i], w(x[i], y[i]), 1e-9) << count << ' ' << i;
+    }
+}
+
 TEST(Wavefront, BadCoefficientsAreRefused) {
     EXPECT_THROW(Wavefront(std::vector<double>(232), 1), Error);
     EXPECT_THROW(Wavefront(std::vector<double>{0, std::nan("")}, 1), Error);
