@@ -52,7 +52,7 @@ Psf::Field Psf::make_field(double radius, double tolerance) const {
     const double strength =
         outline_strength(aperture_->outline(), aperture_->diameter(), aperture_->area());
     const AveragedSamples samples(bandwidth, per_pixel, aperture_->outline(),
-                                  tolerance / 2 / strength);
+                                  0.8 * tolerance / strength);
     Field field(samples.interpolator());
     const std::vector<double> &pixel = samples.averaging();
     const auto margin = static_cast<int64_t>(pixel.size()) / 2;
@@ -60,7 +60,7 @@ Psf::Field Psf::make_field(double radius, double tolerance) const {
         static_cast<int64_t>(std::ceil(radius * per_pixel)) + field.interpolator.half_width();
     const FocalGrid grid{2 * (reach + margin) + 1, grid_step()};
     const Diffraction diffraction =
-        aperture_->diffract(wavefront_, settings_.wavelength, grid, tolerance / 2);
+        aperture_->diffract(wavefront_, settings_.wavelength, grid, 0.2 * tolerance);
     View<const double> intensity = diffraction.intensity.view();
     if (settings_.mirrored)
         intensity = {intensity.row(grid.size - 1), grid.size, grid.size, 1, -grid.size};

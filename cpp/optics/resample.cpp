@@ -112,11 +112,9 @@ void sum_both_axes(View<const double> in, const Sums &x, const Sums &y, double s
     const int64_t inside = std::min(blocks_for(columns), (in.nx - origin) / block * block);
     const int64_t step = x.step, run = (columns + step - 1) / step;
     // A block may read beyond the samples: zeros, or another remainder's.
-    const auto buffer = [](int64_t size) { return Plane<double>(blocks_for(size) + block, 1); };
-    Plane<double> line_buffer = buffer(run * step), sorted_buffer = buffer(run * step),
-                  sums_buffer = buffer((x.count + x.phases - 1) / x.phases);
-    double *const sorted = sorted_buffer.view().data, *const sums = sums_buffer.view().data;
-    double *const line = step == 1 ? sorted : line_buffer.view().data;
+    Plane<double> buffers(blocks_for(std::max(run * step, x.count)) + block, 3);
+    double *const sorted = buffers.view().row(0), *const sums = buffers.view().row(1);
+    double *const line = step == 1 ? sorted : buffers.view().row(2);
     std::vector<const double *> starts(static_cast<size_t>(step));
     for (int64_t j = 0; j < y.count; ++j) {
         const double *const rows = in.row(y.first_of(j)) + origin;
