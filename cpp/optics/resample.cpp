@@ -115,7 +115,13 @@ void sum_both_axes(View<const double> in, const Sums &x, const Sums &y, double s
     Plane<double> buffers(blocks_for(std::max(run * step, x.count)) + block, 3);
     double *const sorted = buffers.view().row(0), *const sums = buffers.view().row(1);
     double *const line = step == 1 ? sorted : buffers.view().row(2);
-    std::vector<const double *> starts(static_cast<size_t>(step));
+    const int64_t phases = std::min(x.phases, x.count);
+    std::vector<const double *> starts; // [phase * step + remainder]
+    for (int64_t phase = 0; phase < phases; ++phase)
+        for (int64_t remainder = 0; remainder < step; ++remainder) {
+            const int64_t input = x.first_of(phase) - origin + remainder;
+            starts.push_back(sorted + input % step * run + input / step);
+        }
     for (int64_t j = 0; j < y.count; ++j) {
         const double *const rows = in.row(y.first_of(j)) + origin;
         sum_blocks(y.weights_of(j), y.taps, &rows, 1, in.stride_y, inside, line);
@@ -126,13 +132,10 @@ void sum_both_axes(View<const double> in, const Sums &x, const Sums &y, double s
         }
         if (step > 1)
             sort_by_remainder(line, step, run, sorted);
-        for (int64_t phase = 0; phase < std::min(x.phases, x.count); ++phase) {
-            for (int64_t remainder = 0; remainder < step; ++remainder) {
-                const int64_t input = x.first_of(phase) - origin + remainder;
-                starts[static_cast<size_t>(remainder)] = sorted + input % step * run + input / step;
-            }
+        for (int64_t phase = 0; phase < phases; ++phase) {
             const int64_t count = (x.count - phase + x.phases - 1) / x.phases;
-            sum_blocks(x.weights_of(phase), x.taps, starts.data(), step, 1, count, sums);
+            sum_blocks(x.weights_of(phase), x.taps, &starts[static_cast<size_t>(phase * step)],
+                       step, 1, count, sums);
             T *pixel = &out(phase, j);
             for (int64_t i = 0; i < count; ++i, pixel += out.stride_x * x.phases)
                 *pixel = static_cast<T>(scale * sums[i]);
