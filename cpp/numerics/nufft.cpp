@@ -31,7 +31,7 @@ double kernel(double beta, double z) {
     return std::abs(z) < 1 ? std::exp(beta * (std::sqrt(1 - z * z) - 1)) : 0;
 }
 
-// From the rate of Barnett et al., and measured: a single source errs by 1.2 eps at worst, many of
+// From the rate of Barnett et al., and measured: a single source errs by 4 eps at worst, many of
 // them by far less.
 int width_for(double eps) {
     const double digits = -std::log10(std::max(eps, nufft_best_eps));
