@@ -5,6 +5,7 @@
 
 #include "harness.hpp"
 #include "instrument/instrument.hpp"
+#include "optics/roman_region.hpp"
 #include "oracles/psf_oracle.hpp"
 
 #include <algorithm>
@@ -26,13 +27,23 @@ const SegmentedPupil &c5_pupil() {
     return std::get<SegmentedPupil>(c5().pupil(7, "J129"));
 }
 
-Wavefront sca7() {
-    const auto zernikes = c5().zernikes(7);
+Wavefront detector7(const Instrument &instrument, double at) {
+    const auto zernikes = instrument.zernikes(7);
     std::vector<double> waves(zernikes.begin(), zernikes.end());
     std::fill_n(waves.begin(), 3, 0.0);
     for (double &a : waves)
-        a *= 1293e-9 / wavelength;
+        a *= 1293e-9 / at;
     return Wavefront(waves, 1.18);
+}
+
+Wavefront sca7() {
+    return detector7(c5(), wavelength);
+}
+
+const oracle::Intensity &c5_truth() {
+    static const oracle::Intensity truth =
+        oracle::brute_force(pupil_nodes(c5_pupil(), 120, 1e-14), sca7(), wavelength);
+    return truth;
 }
 
 Psf make_psf(double eps, double reach = radius) {
@@ -41,9 +52,7 @@ Psf make_psf(double eps, double reach = radius) {
 
 // Draws an image of n^2 samples with the star a little off its centre; the largest error over
 // probes from the core to the corners.
-double draw_error(const Psf &psf, int64_t n, int64_t oversampling) {
-    static const oracle::Intensity truth =
-        oracle::brute_force(pupil_nodes(c5_pupil(), 120, 1e-14), sca7(), wavelength);
+double draw_error(const Psf &psf, const oracle::Intensity &truth, int64_t n, int64_t oversampling) {
     const double star = static_cast<double>(n - 1) / 2 + 0.23;
     Plane<double> image(n, n);
     psf.draw(star, star, 1, oversampling, image.view());
@@ -69,7 +78,29 @@ Case model_case(double eps, double target_s) {
     return {name, "largest pixel error / peak pixel", target_s, eps, [eps] {
                 Measured m;
                 m.timing = time([eps] { make_psf(eps); });
-                m.error = draw_error(make_psf(eps), 32, 1);
+                m.error = draw_error(make_psf(eps), c5_truth(), 32, 1);
+                return m;
+            }};
+}
+
+// Roman's detector 7.
+Case roman_case(const char *band, double band_wavelength) {
+    char name[64];
+    std::snprintf(name, sizeof name, "PSF model, Roman %s, the same, eps 1e-06", band);
+    return {name, "largest pixel error / peak pixel", 0, 1e-6, [=] {
+                const Instrument &roman = Instrument::get("roman-c9");
+                const auto &pupil = std::get<RomanPupil>(roman.pupil(7, band));
+                const Wavefront wavefront = detector7(roman, band_wavelength);
+                const std::shared_ptr<const Aperture> aperture = make_aperture(pupil);
+                const auto make = [&] {
+                    return Psf(aperture, wavefront, {band_wavelength, pixel_scale, 1e-6, radius});
+                };
+                Measured m;
+                m.timing = time(make);
+                const oracle::Intensity truth =
+                    oracle::brute_force(pupil_nodes(lit_cells(lit_region(pupil)), 120, 1e-14),
+                                        wavefront, band_wavelength);
+                m.error = draw_error(make(), truth, 32, 1);
                 return m;
             }};
 }
@@ -88,7 +119,7 @@ Case draw_case(const char *name, double eps, int64_t n, int64_t oversampling, do
                         fresh = make_psf(eps, reach + 0.5);
                     (fresh ? *fresh : psf).draw(star, star, 1, oversampling, image.view());
                 });
-                m.error = draw_error(psf, n, oversampling);
+                m.error = draw_error(psf, c5_truth(), n, oversampling);
                 return m;
             }};
 }
@@ -105,7 +136,7 @@ Case stars_case(const char *name, int64_t count, int threads) {
                 const Psf psf = make_psf(1e-5);
                 Measured m;
                 m.timing = time([&] { psf.add(stars, 1, image.view(), threads); });
-                m.error = draw_error(psf, 32, 1);
+                m.error = draw_error(psf, c5_truth(), 32, 1);
                 return m;
             }};
 }
@@ -116,6 +147,8 @@ std::vector<Case> psf_cases() {
     return {model_case(1e-3, 0),
             model_case(1e-6, 2.5e-3),
             model_case(1e-10, 5e-3),
+            roman_case("J129", 1292.11e-9),
+            roman_case("F184", 1837.3e-9),
             draw_case("star stamp 32^2, model built, eps 1e-5", 1e-5, 32, 1, 5e-6, false),
             draw_case("effective PSF 512^2 at pixel/32 with its model, eps 1e-6", 1e-6, 512, 32,
                       10e-3, true),

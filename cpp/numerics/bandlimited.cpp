@@ -69,7 +69,7 @@ int64_t BandlimitedInterpolator::weights(double x, double *w) const {
 std::vector<double> BandlimitedInterpolator::averaging_filter(double width) const {
     const int m = static_cast<int>(std::ceil(half_width_ + width / 2));
     std::vector<double> filter(static_cast<size_t>(2 * m + 1));
-    const GaussLegendre rule(24);
+    const GaussLegendre rule(14);
     for (int j = 0; j <= m; ++j) {
         // One panel a unit of t: the kernel is smooth inside each.
         const double a = std::max(j - width / 2, -double(half_width_));
@@ -108,8 +108,9 @@ double outline_spectrum(Outline outline, double s) {
 // the spectrum.
 struct Spectrum {
     std::vector<double> frequency, weight;
-    Spectrum(double bandwidth, Outline outline) {
-        const GaussLegendre rule(32);
+    // For the errors of filters of about the given half width, which are waves of such lengths.
+    Spectrum(double bandwidth, Outline outline, int half_width) {
+        const GaussLegendre rule(24 + static_cast<int>(2 * bandwidth * half_width));
         for (size_t i = 0; i < rule.x.size(); ++i) {
             const double s = (1 + rule.x[i]) / 2;
             frequency.push_back(bandwidth * s);
@@ -176,28 +177,29 @@ AveragedSamples::AveragedSamples(double bandwidth, double width, Outline outline
     if (!(bandwidth > 0 && bandwidth < 0.5))
         fail(WFPSF_ERROR_RANGE, "bandwidth = %g: must lie between 0 and 1/2 cycles per sample",
              bandwidth);
-    constexpr double deeper = 1.2;  // added to beta
+    const double deeper = outline == Outline::square ? 1.2 : 1.6; // added to beta
     constexpr double safety = 1.25; // for places and frequencies between those summed over
     constexpr int widest = 64;
-    const Spectrum spectrum(bandwidth, outline);
     const double beta_per_sample = 2 * pi * (0.5 - bandwidth);
     const auto with_half_width = [&](int h) {
         return BandlimitedInterpolator(h, beta_per_sample * h + deeper);
     };
-    const double each = std::max(eps, 8 * rounding) / (4 * safety);
+    // Of one axis, for both filters; the average is the cheaper one to make better.
+    const double share = (std::max(eps, 8 * rounding) - rounding) / (2 * safety);
     // No shorter filter was ever good enough.
-    const int shortest = std::max(2, static_cast<int>(std::log(0.02 / each) / beta_per_sample));
+    const int shortest = std::max(2, static_cast<int>(std::log(0.02 / share) / beta_per_sample));
+    const Spectrum spectrum(bandwidth, outline, shortest);
     double interpolating = 0, averaging = 0;
+    for (int h = shortest; h <= widest; ++h) {
+        averaging_ = with_half_width(h).averaging_filter(width);
+        averaging = averaging_error(averaging_, width, spectrum);
+        if (averaging <= 0.2 * share)
+            break;
+    }
     for (int h = shortest; h <= widest; ++h) {
         interpolator_ = with_half_width(h);
         interpolating = interpolation_error(interpolator_, width, spectrum);
-        if (interpolating <= 1.5 * each)
-            break;
-    }
-    for (int h = std::max(2, shortest - 2); h <= widest; ++h) {
-        averaging_ = with_half_width(h).averaging_filter(width);
-        averaging = averaging_error(averaging_, width, spectrum);
-        if (averaging <= 0.5 * each)
+        if (interpolating + averaging <= share)
             break;
     }
     error_ = 2 * safety * (interpolating + averaging) + rounding;

@@ -2,6 +2,7 @@
 // Gauss-Legendre quadrature.
 #pragma once
 
+#include <map>
 #include <vector>
 
 namespace wfpsf {
@@ -12,6 +13,15 @@ struct GaussLegendre {
     explicit GaussLegendre(int n);
     int size() const { return static_cast<int>(x.size()); }
     std::vector<double> x, w;
+};
+
+// Rules that are used again and again.
+class GaussLegendreRules {
+  public:
+    const GaussLegendre &of(int n);
+
+  private:
+    std::map<int, GaussLegendre> rules_;
 };
 
 // The smallest n with which an n-point rule integrates exp(iKx) over [-1, 1] to about eps.

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <complex>
 #include <limits>
-#include <map>
 #include <numbers>
 
 namespace wfpsf {
@@ -74,18 +73,6 @@ class Abscissa {
     double middle_ = 0, half_ = 0, begin_, end_, decay_ = infinity;
 };
 
-// Rules are used again and again.
-class Rules {
-  public:
-    const GaussLegendre &of(int n) {
-        const auto [found, added] = rules_.try_emplace(n, n);
-        return found->second;
-    }
-
-  private:
-    std::map<int, GaussLegendre> rules_;
-};
-
 // Length of the longest step of a cell's curve, of `steps` equal ones in t, and the cell's area.
 constexpr int steps = 8;
 struct Extent {
@@ -125,7 +112,7 @@ void pupil_nodes(const std::vector<Cell> &cells, double wavenumber, double eps,
         extents.push_back(extent(cell, abscissae.back()));
         area += extents.back().area;
     }
-    Rules rules;
+    GaussLegendreRules rules;
     NodeBatches nodes(sink);
     for (size_t c = 0; c < cells.size(); ++c) {
         const Cell &cell = cells[c];

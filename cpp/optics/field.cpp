@@ -38,15 +38,16 @@ class ImageMaker {
           strength_(outline_strength(optics.aperture->outline(), optics.aperture->diameter(),
                                      optics.aperture->area())),
           samples_(bandwidth(shortest_wavelength), static_cast<double>(per_pixel_),
-                   optics.aperture->outline(), tolerance / 2 / strength_),
-          filter_{{{samples_.averaging(), samples_.averaging()}}, 0}, tolerance_(tolerance / 2) {
+                   optics.aperture->outline(),
+                   (settings.blur.none() ? 0.8 : 0.4) * tolerance / strength_),
+          filter_{{{samples_.averaging(), samples_.averaging()}}, 0}, tolerance_(0.2 * tolerance) {
         const auto samples = static_cast<double>(per_pixel_);
         const Covariance &blur = settings.blur;
         if (!blur.none())
             filter_ = blurring_filter(bandwidth(shortest_wavelength), samples,
                                       {blur.xx * samples * samples, blur.xy * samples * samples,
                                        blur.yy * samples * samples},
-                                      tolerance / 4 / strength_);
+                                      0.4 * tolerance / strength_);
         const auto reach = static_cast<int64_t>(std::ceil(radius * samples)) +
                            samples_.interpolator().half_width();
         const auto margin = static_cast<int64_t>(filter_.half_width());

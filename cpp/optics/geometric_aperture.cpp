@@ -149,14 +149,16 @@ template <class Pupil> class GeometricAperture final : public Aperture {
             2 * pi *
             (std::numbers::sqrt2 * grid.largest_angle() / wavelength + wavefront.slope_bound());
         // Far from the core a wrong amplitude meets a small one, so that the intensity is better
-        // than the amplitude: start loosely and let the check decide.
-        for (double asked = std::min(0.1, 30 * eps);;) {
+        // than the amplitude; the transform's errors are those of many sources, of which most
+        // cancel. So start loosely and let the check decide.
+        for (double asked = eps;;) {
+            const double quadrature_eps = std::min(0.1, 30 * asked);
             Diffraction out =
-                transform(pupil_, wavefront, wavelength, grid, wavenumber, asked, eps / 4);
-            out.error =
-                error(out.intensity.view(), wavefront, wavelength, grid, wavenumber, asked * 1e-2);
+                transform(pupil_, wavefront, wavelength, grid, wavenumber, quadrature_eps, asked);
+            out.error = error(out.intensity.view(), wavefront, wavelength, grid, wavenumber,
+                              quadrature_eps * 1e-2);
             out.model_error = fit_error_;
-            if (out.error <= eps || asked < 1e-17)
+            if (out.error <= eps || asked < 1e-18)
                 return out;
             asked *= std::clamp(eps / out.error, 1e-3, 0.3);
         }

@@ -93,15 +93,16 @@ void subtract_sliver(NodeBatches &nodes, const Arc &fillet, const Arc &side, Poi
                      const GaussLegendre &rule) {
     const Point end = side.at(0);
     const double orientation = std::copysign(1, cross(end - fillet.at(0), corner - fillet.at(0)));
-    for (size_t i = 0; i < rule.x.size(); ++i) {
-        const double s = (1 + rule.x[i]) / 2;
-        for (size_t k = 0; k < rule.x.size(); ++k) {
-            const double t = (1 + rule.x[k]) / 2;
-            const Point bulge = side.at(t) - (1 - t) * end - t * corner;
-            const Point bulge_t = side.slope(t) + end - corner;
-            const Point p = (1 - t) * fillet.at(s) + t * corner + s * bulge;
+    for (size_t k = 0; k < rule.x.size(); ++k) {
+        const double t = (1 + rule.x[k]) / 2;
+        const Point bulge = side.at(t) - (1 - t) * end - t * corner;
+        const Point bulge_t = side.slope(t) + end - corner;
+        for (size_t i = 0; i < rule.x.size(); ++i) {
+            const double s = (1 + rule.x[i]) / 2;
+            const Point on_fillet = fillet.at(s);
+            const Point p = (1 - t) * on_fillet + t * corner + s * bulge;
             const Point p_s = (1 - t) * fillet.slope(s) + bulge;
-            const Point p_t = corner - fillet.at(s) + s * bulge_t;
+            const Point p_t = corner - on_fillet + s * bulge_t;
             nodes.add(p.x, p.y, -orientation * rule.w[i] * rule.w[k] / 4 * cross(p_s, p_t));
         }
     }
@@ -142,9 +143,10 @@ void NodeBatches::flush() {
 void pupil_nodes(const SegmentedPupil &pupil, double wavenumber, double eps, const NodeSink &sink) {
     const Rim outer{pupil.outer, -1}, inner{pupil.obscuration, 1};
     const double width = (pupil.outer.radius - pupil.obscuration.radius) / 2;
-    const GaussLegendre across(gauss_legendre_points(wavenumber * width, eps));
+    GaussLegendreRules rules;
+    const GaussLegendre &across = rules.of(gauss_legendre_points(wavenumber * width, eps));
     // All slivers together are a thousandth of the lit area.
-    const GaussLegendre corner(
+    const GaussLegendre &corner = rules.of(
         2 + gauss_legendre_points(wavenumber * pupil.corner_radius, std::min(0.1, 1000 * eps)));
     NodeBatches nodes(sink);
     for (const PupilSegment &segment : pupil.segments) {
@@ -163,7 +165,7 @@ void pupil_nodes(const SegmentedPupil &pupil, double wavenumber, double eps, con
         };
         const Arc outer_arc = arc(pupil.outer);
         const double half_length = std::abs(outer_arc.sweep) * outer_arc.radius / 2;
-        const GaussLegendre along(gauss_legendre_points(wavenumber * half_length, eps));
+        const GaussLegendre &along = rules.of(gauss_legendre_points(wavenumber * half_length, eps));
         add_ruled(nodes, arc(pupil.obscuration), outer_arc, along, across);
         if (pupil.corner_radius > 0)
             for (const Edge &edge : {a, b})

@@ -112,12 +112,16 @@ void sum_both_axes(View<const double> in, const Sums &x, const Sums &y, double s
     const int64_t inside = std::min(blocks_for(columns), (in.nx - origin) / block * block);
     const int64_t step = x.step, run = (columns + step - 1) / step;
     // A block may read beyond the samples: zeros, or another remainder's.
-    const auto buffer = [](int64_t size) { return Plane<double>(blocks_for(size) + block, 1); };
-    Plane<double> line_buffer = buffer(run * step), sorted_buffer = buffer(run * step),
-                  sums_buffer = buffer((x.count + x.phases - 1) / x.phases);
-    double *const sorted = sorted_buffer.view().data, *const sums = sums_buffer.view().data;
-    double *const line = step == 1 ? sorted : line_buffer.view().data;
-    std::vector<const double *> starts(static_cast<size_t>(step));
+    Plane<double> buffers(blocks_for(std::max(run * step, x.count)) + block, 3);
+    double *const sorted = buffers.view().row(0), *const sums = buffers.view().row(1);
+    double *const line = step == 1 ? sorted : buffers.view().row(2);
+    const int64_t phases = std::min(x.phases, x.count);
+    std::vector<const double *> starts; // [phase * step + remainder]
+    for (int64_t phase = 0; phase < phases; ++phase)
+        for (int64_t remainder = 0; remainder < step; ++remainder) {
+            const int64_t input = x.first_of(phase) - origin + remainder;
+            starts.push_back(sorted + input % step * run + input / step);
+        }
     for (int64_t j = 0; j < y.count; ++j) {
         const double *const rows = in.row(y.first_of(j)) + origin;
         sum_blocks(y.weights_of(j), y.taps, &rows, 1, in.stride_y, inside, line);
@@ -128,13 +132,10 @@ void sum_both_axes(View<const double> in, const Sums &x, const Sums &y, double s
         }
         if (step > 1)
             sort_by_remainder(line, step, run, sorted);
-        for (int64_t phase = 0; phase < std::min(x.phases, x.count); ++phase) {
-            for (int64_t remainder = 0; remainder < step; ++remainder) {
-                const int64_t input = x.first_of(phase) - origin + remainder;
-                starts[static_cast<size_t>(remainder)] = sorted + input % step * run + input / step;
-            }
+        for (int64_t phase = 0; phase < phases; ++phase) {
             const int64_t count = (x.count - phase + x.phases - 1) / x.phases;
-            sum_blocks(x.weights_of(phase), x.taps, starts.data(), step, 1, count, sums);
+            sum_blocks(x.weights_of(phase), x.taps, &starts[static_cast<size_t>(phase * step)],
+                       step, 1, count, sums);
             T *pixel = &out(phase, j);
             for (int64_t i = 0; i < count; ++i, pixel += out.stride_x * x.phases)
                 *pixel = static_cast<T>(scale * sums[i]);
