@@ -8,6 +8,8 @@
 #include "optics/psf.hpp"
 
 #include <array>
+#include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,6 +20,7 @@ struct wfpsf_image {
 };
 
 struct wfpsf_instrument {
+    std::shared_ptr<const wfpsf::Instrument> owned; // none if it is compiled in
     const wfpsf::Instrument &instrument;
 };
 
@@ -44,6 +47,10 @@ bool flag(const wfpsf_options *options, int32_t key);
 
 // The extra Zernike coefficients; none if options is NULL.
 const std::vector<double> &extra_zernikes(const wfpsf_options *options);
+
+// Coefficients as a caller gives them, `count` at each of `points` places, once they are sound.
+std::span<const double> checked_zernikes(int64_t count, const double *coefficients,
+                                         int64_t points = 1);
 
 PixelType pixel_type_of(int32_t pixel_type);
 

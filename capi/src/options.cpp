@@ -65,6 +65,20 @@ bool flag(const wfpsf_options *options, int32_t key) {
     return option(options, key) != 0;
 }
 
+std::span<const double> checked_zernikes(int64_t count, const double *coefficients,
+                                         int64_t points) {
+    if (count < 0 || count > Wavefront::largest_j)
+        fail(WFPSF_ERROR_RANGE, "count = %lld: must be 0..%d", static_cast<long long>(count),
+             Wavefront::largest_j);
+    if (count > 0)
+        require_pointer(coefficients, "coefficients");
+    const std::span given(coefficients, static_cast<size_t>(count * points));
+    for (size_t i = 0; i < given.size(); ++i)
+        if (!std::isfinite(given[i]))
+            fail(WFPSF_ERROR_NOT_FINITE, "coefficients[%zu] = %g: must be finite", i, given[i]);
+    return given;
+}
+
 const std::vector<double> &extra_zernikes(const wfpsf_options *options) {
     static const std::vector<double> none;
     return options ? options->zernikes : none;
@@ -117,16 +131,8 @@ wfpsf_status wfpsf_options_set_zernikes(wfpsf_options *options, int64_t count,
                                         const double *coefficients) {
     return guarded([&] {
         require_pointer(options, "options");
-        if (count < 0 || count > Wavefront::largest_j)
-            fail(WFPSF_ERROR_RANGE, "count = %lld: must be 0..%d", static_cast<long long>(count),
-                 Wavefront::largest_j);
-        if (count > 0)
-            require_pointer(coefficients, "coefficients");
-        for (int64_t i = 0; i < count; ++i)
-            if (!std::isfinite(coefficients[i]))
-                fail(WFPSF_ERROR_NOT_FINITE, "coefficients[%lld] = %g: must be finite",
-                     static_cast<long long>(i), coefficients[i]);
-        options->zernikes.assign(coefficients, coefficients + count);
+        const std::span<const double> given = checked_zernikes(count, coefficients);
+        options->zernikes.assign(given.begin(), given.end());
     });
 }
 

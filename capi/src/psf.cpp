@@ -29,12 +29,13 @@ Wavefront make_wavefront(const Instrument &instrument, std::span<const double> o
     return Wavefront(coefficients, instrument.diameter_m() / 2);
 }
 
+// band: NULL for an instrument that has one pupil for all.
 std::unique_ptr<const Aperture> make_aperture_of(const Instrument &instrument, int32_t sca,
                                                  const char *band, const wfpsf_options *options) {
     if (!flag(options, WFPSF_OPTION_STRUTS))
         return make_aperture(instrument.annular_pupil());
     return std::visit([](const auto &pupil) { return make_aperture(pupil); },
-                      instrument.pupil(sca, band));
+                      band ? instrument.pupil(sca, band) : instrument.pupils.front());
 }
 
 // What all ways to make a PSF share; the aperture is made only when the arguments are sound.
@@ -76,7 +77,7 @@ wfpsf_status wfpsf_psf_create(const wfpsf_instrument *instrument, int32_t sca, d
                  "wfpsf_psf_create_in_band()",
                  i.name);
         return create(i, i.zernikes(sca), wavelength_nm, options, out, false,
-                      [&] { return make_aperture_of(i, sca, i.bands[0].name, options); });
+                      [&] { return make_aperture_of(i, sca, nullptr, options); });
     });
 }
 

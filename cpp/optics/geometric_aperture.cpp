@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A pupil given as geometry: areal quadrature and a nonuniform FFT.
+#include "error/error.hpp"
 #include "numerics/nufft.hpp"
 #include "optics/aperture.hpp"
 #include "optics/pupil_nodes.hpp"
 #include "optics/roman_region.hpp"
+#include "optics/spider_region.hpp"
 
 #include <algorithm>
 #include <array>
@@ -125,6 +127,17 @@ std::unique_ptr<const Aperture> make_aperture(const SegmentedPupil &pupil) {
 std::unique_ptr<const Aperture> make_aperture(const RomanPupil &pupil) {
     return std::make_unique<GeometricAperture<std::vector<Cell>>>(lit_cells(lit_region(pupil)),
                                                                   extent(pupil), pupil.fit_error);
+}
+
+std::unique_ptr<const Aperture> make_aperture(const SpiderPupil &pupil) {
+    const double radius = pupil.outer_radius;
+    if (pupil.struts.empty())
+        return make_aperture(AnnularPupil{radius, pupil.inner_radius});
+    auto aperture = std::make_unique<GeometricAperture<std::vector<Cell>>>(
+        lit_cells(lit_region(pupil)), 2 * radius, 0.0);
+    if (!(aperture->area() > 1e-6 * pi * radius * radius))
+        fail(WFPSF_ERROR_ARGUMENT, "struts: leave %g m^2 of the pupil lit", aperture->area());
+    return aperture;
 }
 
 std::unique_ptr<const Aperture> make_aperture(const AnnularPupil &pupil) {
