@@ -52,6 +52,13 @@ const std::vector<double> &extra_zernikes(const wfpsf_options *options);
 std::span<const double> checked_zernikes(int64_t count, const double *coefficients,
                                          int64_t points = 1);
 
+// The optical path difference to add, or none.
+std::shared_ptr<const OpdMap> opd_map(const wfpsf_options *options);
+
+// A caller's image of the pupil: its sampling must be sound, and its pixels are copied.
+void check_pupil_sampling(const char *scale_name, double scale_m, double axis_x, double axis_y);
+Plane<double> copy_of(const wfpsf_image &image);
+
 PixelType pixel_type_of(int32_t pixel_type);
 
 } // namespace wfpsf

@@ -34,6 +34,7 @@ size_t index_of(int32_t key) {
 struct wfpsf_options {
     std::array<double, option_count> values;
     std::vector<double> zernikes;
+    std::shared_ptr<const wfpsf::OpdMap> opd_map;
 };
 
 namespace wfpsf {
@@ -82,6 +83,21 @@ std::span<const double> checked_zernikes(int64_t count, const double *coefficien
 const std::vector<double> &extra_zernikes(const wfpsf_options *options) {
     static const std::vector<double> none;
     return options ? options->zernikes : none;
+}
+
+std::shared_ptr<const OpdMap> opd_map(const wfpsf_options *options) {
+    return options ? options->opd_map : nullptr;
+}
+
+void check_pupil_sampling(const char *scale_name, double scale_m, double axis_x, double axis_y) {
+    require_finite(scale_m, scale_name);
+    if (!(scale_m > 0 && scale_m <= 1))
+        fail(WFPSF_ERROR_RANGE, "%s = %g: must be above 0, up to 1", scale_name, scale_m);
+    for (const auto &[name, value] : {std::pair("axis_x", axis_x), std::pair("axis_y", axis_y)}) {
+        require_finite(value, name);
+        if (!(std::abs(value) <= 1e6))
+            fail(WFPSF_ERROR_RANGE, "%s = %g: must be -1e6..1e6", name, value);
+    }
 }
 
 } // namespace wfpsf
@@ -133,6 +149,20 @@ wfpsf_status wfpsf_options_set_zernikes(wfpsf_options *options, int64_t count,
         require_pointer(options, "options");
         const std::span<const double> given = checked_zernikes(count, coefficients);
         options->zernikes.assign(given.begin(), given.end());
+    });
+}
+
+wfpsf_status wfpsf_options_set_opd(wfpsf_options *options, const wfpsf_image *map, double scale_m,
+                                   double axis_x, double axis_y) {
+    return guarded([&] {
+        require_pointer(options, "options");
+        if (!map) {
+            options->opd_map = nullptr;
+            return;
+        }
+        check_pupil_sampling("scale_m", scale_m, axis_x, axis_y);
+        const Plane<double> samples = copy_of(*map);
+        options->opd_map = std::make_shared<OpdMap>(samples.view(), scale_m, axis_x, axis_y);
     });
 }
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -19,6 +20,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double rounding = 1e-13; // of |A|^2 in units of area^2: sums of 10^3 to 10^5 terms
+constexpr double most_nodes = 1e6; // that a map's roughness may lead to, about
 using Complex = std::complex<double>;
 
 // What the nodes send towards the focal plane: weight exp(2 pi i W).
@@ -71,6 +73,14 @@ Probes sum_at_probes(const PupilNodes &nodes, const Wavefront &wavefront, double
     return sums;
 }
 
+double largest(const Plane<Complex> &amplitude) {
+    double norm = 0;
+    for (int64_t y = 0; y < amplitude.ny(); ++y)
+        for (int64_t x = 0; x < amplitude.nx(); ++x)
+            norm = std::max(norm, std::norm(amplitude(x, y)));
+    return std::sqrt(norm);
+}
+
 template <class Pupil> class GeometricAperture final : public Aperture {
   public:
     GeometricAperture(const Pupil &pupil, double diameter, double fit_error)
@@ -84,32 +94,51 @@ template <class Pupil> class GeometricAperture final : public Aperture {
     Amplitude amplitude(const Wavefront &wavefront, double wavelength, const FocalGrid &grid,
                         double eps) const override {
         // The fastest wave over the pupil: the grid's corner, plus the wavefront's own slope.
-        const double wavenumber =
+        double wavenumber =
             2 * pi *
             (std::numbers::sqrt2 * grid.largest_angle() / wavelength + wavefront.slope_bound());
+        // A map may be rougher than its slope tells: then the nodes grow denser, and where they
+        // would be too many, the error is reported as it is.
+        const bool rough = wavefront.has_map();
+        const double densest = pi * std::sqrt(most_nodes / area_);
+        if (rough)
+            wavenumber = std::min(wavenumber, densest);
         // Far from the core a wrong amplitude meets a small one, so that the intensity is better
         // than the amplitude: start loosely and let the check decide.
+        double before = std::numeric_limits<double>::infinity();
         for (double asked = std::min(0.1, 30 * eps);;) {
             const PupilNodes nodes = pupil_nodes(pupil_, wavenumber, asked);
             Plane<Complex> value = transform(nodes, wavefront, wavelength, grid, eps / 4);
-            const double error = check(value, pupil_nodes(pupil_, wavenumber, asked * 1e-2),
-                                       wavefront, wavelength, grid);
-            if (error <= eps || asked < 1e-17)
+            const double error =
+                check(value, pupil_nodes(pupil_, (rough ? 1.3 : 1) * wavenumber, asked * 1e-2),
+                      wavefront, wavelength, grid);
+            const bool stuck = rough && error > before / 3;
+            if (error <= eps || asked < 1e-17 || (stuck && wavenumber >= densest))
                 return {std::move(value), static_cast<int64_t>(nodes.size()), error, fit_error_};
-            asked *= std::clamp(eps / error, 1e-3, 0.3);
+            if (stuck)
+                wavenumber = std::min(1.5 * wavenumber, densest);
+            else
+                asked *= std::clamp(eps / error, 1e-3, 0.3);
+            before = error;
         }
     }
 
   private:
     // Four times the largest difference of |A|^2 from a finer quadrature that is summed plainly.
+    // What a map's roughness makes of the amplitude is the same at all angles, and counts where the
+    // amplitude is largest.
     double check(const Plane<Complex> &value, const PupilNodes &finer, const Wavefront &wavefront,
                  double wavelength, const FocalGrid &grid) const {
         const std::array<int64_t, per_axis> at = probes(grid);
         const Probes truth = sum_at_probes(finer, wavefront, wavelength, grid);
-        double worst = 0;
-        for (size_t j = 0; j < truth.size(); ++j)
-            worst = std::max(worst, std::abs(std::norm(value(at[j % per_axis], at[j / per_axis])) -
-                                             std::norm(truth[j])));
+        double worst = 0, off = 0;
+        for (size_t j = 0; j < truth.size(); ++j) {
+            const Complex here = value(at[j % per_axis], at[j / per_axis]);
+            worst = std::max(worst, std::abs(std::norm(here) - std::norm(truth[j])));
+            off = std::max(off, std::abs(here - truth[j]));
+        }
+        if (wavefront.has_map())
+            worst = (2 * largest(value) + off) * off;
         return 4 * worst / (area_ * area_) + rounding;
     }
 

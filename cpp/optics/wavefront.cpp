@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <complex>
+#include <utility>
 
 namespace wfpsf {
 
@@ -62,6 +63,12 @@ Wavefront::Wavefront(std::span<const double> coefficients, double radius) : radi
     }
 }
 
+void Wavefront::add(std::shared_ptr<const OpdMap> map, double wavelength) {
+    map_ = std::move(map);
+    waves_per_metre_ = 1 / wavelength;
+    slope_bound_ += map_->slope_bound(radius_) * waves_per_metre_;
+}
+
 double Wavefront::operator()(double x, double y) const {
     const std::complex<double> z(x / radius_, y / radius_);
     const double t = std::norm(z);
@@ -71,7 +78,7 @@ double Wavefront::operator()(double x, double y) const {
         sum += horner(order.cosine, t) * power.real() + horner(order.sine, t) * power.imag();
         power *= z;
     }
-    return sum;
+    return map_ ? sum + waves_per_metre_ * (*map_)(x, y) : sum;
 }
 
 } // namespace wfpsf

@@ -559,6 +559,18 @@ module wfpsf_c
         end function wfpsf_instrument_create_from_design
 
         ! psf.h
+        function wfpsf_options_set_opd(options, map, scale_m, axis_x, axis_y) &
+            bind(c, name="wfpsf_options_set_opd") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: options
+            type(c_ptr), value :: map
+            real(c_double), value :: scale_m
+            real(c_double), value :: axis_x
+            real(c_double), value :: axis_y
+            integer(c_int32_t) :: outcome
+        end function wfpsf_options_set_opd
+
         function wfpsf_psf_create(instrument, sca, wavelength_nm, options, out) &
             bind(c, name="wfpsf_psf_create") result(outcome)
             import :: c_double, c_int32_t, c_ptr

@@ -360,6 +360,13 @@ const WFPSF_PSF_GRID_STEP_ARCSEC = Int32(80)
 const WFPSF_PSF_RADIUS = Int32(90)
 const WFPSF_PSF_LIT_AREA_M2 = Int32(100)
 
+const wfpsf_options_set_opd_pointer = Ref(C_NULL)
+function wfpsf_options_set_opd(options, map, scale_m, axis_x, axis_y)
+    return ccall(wfpsf_options_set_opd_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Float64, Float64,
+        Float64),
+        options, map, scale_m, axis_x, axis_y)
+end
+
 const wfpsf_psf_create_pointer = Ref(C_NULL)
 function wfpsf_psf_create(instrument, sca, wavelength_nm, options, out)
     return ccall(wfpsf_psf_create_pointer[], Int32, (Ptr{Cvoid}, Int32, Float64, Ptr{Cvoid},
@@ -593,6 +600,7 @@ const pointers = [
     :wfpsf_design_set_field => wfpsf_design_set_field_pointer,
     :wfpsf_design_add_band => wfpsf_design_add_band_pointer,
     :wfpsf_instrument_create_from_design => wfpsf_instrument_create_from_design_pointer,
+    :wfpsf_options_set_opd => wfpsf_options_set_opd_pointer,
     :wfpsf_psf_create => wfpsf_psf_create_pointer,
     :wfpsf_psf_create_in_band => wfpsf_psf_create_in_band_pointer,
     :wfpsf_psf_create_from_mask => wfpsf_psf_create_from_mask_pointer,
