@@ -94,13 +94,12 @@ template <class Pupil> class GeometricAperture final : public Aperture {
     Amplitude amplitude(const Wavefront &wavefront, double wavelength, const FocalGrid &grid,
                         double eps) const override {
         // The fastest wave over the pupil: the grid's corner, plus the wavefront's own slope.
-        double wavenumber =
-            2 * pi *
-            (std::numbers::sqrt2 * grid.largest_angle() / wavelength + wavefront.slope_bound());
+        const double of_grid = 2 * pi * std::numbers::sqrt2 * grid.largest_angle() / wavelength;
+        double wavenumber = of_grid + 2 * pi * wavefront.slope_bound();
         // A map may be rougher than its slope tells: then the nodes grow denser, and where they
         // would be too many, the error is reported as it is.
         const bool rough = wavefront.has_map();
-        const double densest = pi * std::sqrt(most_nodes / area_);
+        const double densest = std::max(pi * std::sqrt(most_nodes / area_), 2 * of_grid);
         if (rough)
             wavenumber = std::min(wavenumber, densest);
         // Far from the core a wrong amplitude meets a small one, so that the intensity is better
@@ -131,7 +130,7 @@ template <class Pupil> class GeometricAperture final : public Aperture {
                  double wavelength, const FocalGrid &grid) const {
         const std::array<int64_t, per_axis> at = probes(grid);
         const Probes truth = sum_at_probes(finer, wavefront, wavelength, grid);
-        double worst = 0, off = 0;
+        double worst = 0, off = 0; // |A|^2, A
         for (size_t j = 0; j < truth.size(); ++j) {
             const Complex here = value(at[j % per_axis], at[j / per_axis]);
             worst = std::max(worst, std::abs(std::norm(here) - std::norm(truth[j])));

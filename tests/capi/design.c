@@ -101,10 +101,11 @@ static void test_like_a_built_in(void) {
     wfpsf_instrument_destroy(c5);
 }
 
-/* A turn of the struts by 90 degrees turns the image; without them, struts or not, an Airy disc. */
+/* A turn of the struts by 90 degrees turns the image. WFPSF_OPTION_STRUTS takes them away, also
+   before an unobscured primary. */
 static void test_struts(void) {
-    double first[size * size], second[size * size], turned[size * size], area[2];
-    wfpsf_options *with = fast_options(1);
+    double first[size * size], second[size * size], turned[size * size], area[2], bare_area = 0;
+    wfpsf_options *with = fast_options(1), *without = fast_options(0);
     wfpsf_psf *psf = NULL;
     for (int turn = 0; turn < 2; ++turn) {
         wfpsf_design *design = sound_design();
@@ -119,14 +120,20 @@ static void test_struts(void) {
         CHECK_OK(wfpsf_psf_draw(psf, 7, 7, 1, image));
         wfpsf_image_destroy(image);
         wfpsf_psf_destroy(psf);
+        CHECK_OK(wfpsf_psf_create(mine, 1, 1500, without, &psf));
+        CHECK_OK(wfpsf_psf_get(psf, WFPSF_PSF_LIT_AREA_M2, &bare_area));
+        CHECK_NEAR(bare_area, 3.14159265358979323846 * 1.18 * 1.18, 1e-12);
+        wfpsf_psf_destroy(psf);
         wfpsf_instrument_destroy(mine);
     }
     CHECK_NEAR(area[1], area[0], 1e-12);
+    CHECK(area[0] < bare_area - 0.3);
     for (int y = 0; y < size; ++y)
         for (int x = 0; x < size; ++x)
             turned[x * size + (size - 1 - y)] = first[y * size + x]; /* (x, y) to (-y, x) */
     check_alike(second, turned, 2e-9);
     wfpsf_options_destroy(with);
+    wfpsf_options_destroy(without);
 }
 
 static void test_wrong_figures(void) {

@@ -45,8 +45,9 @@ enum { WFPSF_PSF_PROPERTY_LIST(WFPSF_PSF_PROPERTY_ENUM) };
  * coefficient * reference wavelength * Z_j adds what the coefficient does. Between the samples
  * stands the bicubic spline that meets them all, with an error that falls as the fourth power of
  * their distance; beyond the outermost samples' centres, the value at the nearest point of the
- * border. Let the map go on smoothly beyond the pupil's edge: a jump there rings through several
- * samples. A pupil mask sampled like the map meets its samples.
+ * border. Nothing of the map is dropped, its tilt included. Let it go on smoothly beyond the
+ * pupil's edge: a jump there rings through several samples. A pupil mask sampled like the map meets
+ * its samples.
  *
  * A map that is too rough for the number of nodes that a PSF takes at most, about a million, gives
  * WARNING_NOT_CERTIFIED, with an error estimate that holds.
