@@ -16,7 +16,7 @@ from typing import NamedTuple
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
 HEADERS = ROOT / "capi/include/wfpsf"
-ORDER = ("version.h.in", "status.h", "options.h", "image.h", "instrument.h", "psf.h", "ipc.h",
+ORDER = ("version.h.in", "status.h", "options.h", "image.h", "instrument.h", "design.h", "psf.h", "ipc.h",
          "moments.h", "size.h")
 WITHOUT_NAMES = {"export.h", "wfpsf.h"}
 WIDTH = 100

@@ -8,6 +8,8 @@
 #include "optics/psf.hpp"
 
 #include <array>
+#include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -18,6 +20,7 @@ struct wfpsf_image {
 };
 
 struct wfpsf_instrument {
+    std::shared_ptr<const wfpsf::Instrument> owned; // none if it is compiled in
     const wfpsf::Instrument &instrument;
 };
 
@@ -48,6 +51,17 @@ bool flag(const wfpsf_options *options, int32_t key);
 
 // The extra Zernike coefficients; none if options is NULL.
 const std::vector<double> &extra_zernikes(const wfpsf_options *options);
+
+// Coefficients as a caller gives them, `count` at each of `points` places, once they are sound.
+std::span<const double> checked_zernikes(int64_t count, const double *coefficients,
+                                         int64_t points = 1);
+
+// The optical path difference to add, or none.
+std::shared_ptr<const OpdMap> opd_map(const wfpsf_options *options);
+
+// A caller's image of the pupil: its sampling must be sound, and its pixels are copied.
+void check_pupil_sampling(const char *scale_name, double scale_m, double axis_x, double axis_y);
+Plane<double> copy_of(const wfpsf_image &image);
 
 // The caller's progress function; one that does nothing if there is none.
 Progress progress_of(const wfpsf_options *options);

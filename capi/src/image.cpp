@@ -22,6 +22,18 @@ PixelType pixel_type_of(int32_t pixel_type) {
          pixel_type);
 }
 
+Plane<double> copy_of(const wfpsf_image &image) {
+    return std::visit(
+        [](auto pixels) {
+            Plane<double> copy(pixels.nx, pixels.ny);
+            for (int64_t y = 0; y < pixels.ny; ++y)
+                for (int64_t x = 0; x < pixels.nx; ++x)
+                    copy(x, y) = static_cast<double>(pixels(x, y));
+            return copy;
+        },
+        image.image.pixels());
+}
+
 namespace {
 
 constexpr int32_t all_effects =

@@ -12,7 +12,7 @@ wfpsf_status wfpsf_instrument_create(const char *name, wfpsf_instrument **out) {
         require_pointer(out, "out");
         *out = nullptr;
         require_pointer(name, "name");
-        *out = new wfpsf_instrument{Instrument::get(name)};
+        *out = new wfpsf_instrument{nullptr, Instrument::get(name)};
     });
 }
 

@@ -53,8 +53,10 @@ wfpsf_status wfpsf_ipc_kernel_create_default(const wfpsf_instrument *instrument,
         require_pointer(out, "out");
         *out = nullptr;
         require_pointer(instrument, "instrument");
-        const IpcTaps &taps = instrument->instrument.ipc_kernel;
-        *out = new wfpsf_ipc_kernel{IpcKernel::from_table({taps.data(), 3, 3, 1, 3}), Effect::ipc};
+        const std::optional<IpcTaps> &taps = instrument->instrument.ipc_kernel;
+        if (!taps)
+            fail(WFPSF_ERROR_ARGUMENT, "instrument: a design has no IPC kernel of its own");
+        *out = new wfpsf_ipc_kernel{IpcKernel::from_table({taps->data(), 3, 3, 1, 3}), Effect::ipc};
     });
 }
 

@@ -34,6 +34,7 @@ size_t index_of(int32_t key) {
 struct wfpsf_options {
     std::array<double, option_count> values;
     std::vector<double> zernikes;
+    std::shared_ptr<const wfpsf::OpdMap> opd_map;
     wfpsf_progress progress;
     void *progress_user;
 };
@@ -67,6 +68,20 @@ bool flag(const wfpsf_options *options, int32_t key) {
     return option(options, key) != 0;
 }
 
+std::span<const double> checked_zernikes(int64_t count, const double *coefficients,
+                                         int64_t points) {
+    if (count < 0 || count > Wavefront::largest_j)
+        fail(WFPSF_ERROR_RANGE, "count = %lld: must be 0..%d", static_cast<long long>(count),
+             Wavefront::largest_j);
+    if (count > 0)
+        require_pointer(coefficients, "coefficients");
+    const std::span given(coefficients, static_cast<size_t>(count * points));
+    for (size_t i = 0; i < given.size(); ++i)
+        if (!std::isfinite(given[i]))
+            fail(WFPSF_ERROR_NOT_FINITE, "coefficients[%zu] = %g: must be finite", i, given[i]);
+    return given;
+}
+
 const std::vector<double> &extra_zernikes(const wfpsf_options *options) {
     static const std::vector<double> none;
     return options ? options->zernikes : none;
@@ -78,6 +93,21 @@ Progress progress_of(const wfpsf_options *options) {
     return {[call = options->progress, user = options->progress_user](double part) {
         return call(part, user) == 0;
     }};
+}
+
+std::shared_ptr<const OpdMap> opd_map(const wfpsf_options *options) {
+    return options ? options->opd_map : nullptr;
+}
+
+void check_pupil_sampling(const char *scale_name, double scale_m, double axis_x, double axis_y) {
+    require_finite(scale_m, scale_name);
+    if (!(scale_m > 0 && scale_m <= 1))
+        fail(WFPSF_ERROR_RANGE, "%s = %g: must be above 0, up to 1", scale_name, scale_m);
+    for (const auto &[name, value] : {std::pair("axis_x", axis_x), std::pair("axis_y", axis_y)}) {
+        require_finite(value, name);
+        if (!(std::abs(value) <= 1e6))
+            fail(WFPSF_ERROR_RANGE, "%s = %g: must be -1e6..1e6", name, value);
+    }
 }
 
 } // namespace wfpsf
@@ -127,16 +157,22 @@ wfpsf_status wfpsf_options_set_zernikes(wfpsf_options *options, int64_t count,
                                         const double *coefficients) {
     return guarded([&] {
         require_pointer(options, "options");
-        if (count < 0 || count > Wavefront::largest_j)
-            fail(WFPSF_ERROR_RANGE, "count = %lld: must be 0..%d", static_cast<long long>(count),
-                 Wavefront::largest_j);
-        if (count > 0)
-            require_pointer(coefficients, "coefficients");
-        for (int64_t i = 0; i < count; ++i)
-            if (!std::isfinite(coefficients[i]))
-                fail(WFPSF_ERROR_NOT_FINITE, "coefficients[%lld] = %g: must be finite",
-                     static_cast<long long>(i), coefficients[i]);
-        options->zernikes.assign(coefficients, coefficients + count);
+        const std::span<const double> given = checked_zernikes(count, coefficients);
+        options->zernikes.assign(given.begin(), given.end());
+    });
+}
+
+wfpsf_status wfpsf_options_set_opd(wfpsf_options *options, const wfpsf_image *map, double scale_m,
+                                   double axis_x, double axis_y) {
+    return guarded([&] {
+        require_pointer(options, "options");
+        if (!map) {
+            options->opd_map = nullptr;
+            return;
+        }
+        check_pupil_sampling("scale_m", scale_m, axis_x, axis_y);
+        const Plane<double> samples = copy_of(*map);
+        options->opd_map = std::make_shared<OpdMap>(samples.view(), scale_m, axis_x, axis_y);
     });
 }
 

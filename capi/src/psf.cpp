@@ -25,15 +25,19 @@ Wavefront make_wavefront(const Instrument &instrument, std::span<const double> o
         std::fill_n(coefficients.begin(), std::min<size_t>(3, coefficients.size()), 0.0);
     for (size_t i = 0; i < extra.size(); ++i)
         coefficients[i] += extra[i];
-    return Wavefront(coefficients, instrument.diameter_m() / 2);
+    Wavefront wavefront(coefficients, instrument.diameter_m() / 2);
+    if (auto map = opd_map(options))
+        wavefront.add(std::move(map), instrument.reference_wavelength_nm() * 1e-9);
+    return wavefront;
 }
 
+// band: NULL for an instrument that has one pupil for all.
 std::unique_ptr<const Aperture> make_aperture_of(const Instrument &instrument, int32_t sca,
                                                  const char *band, const wfpsf_options *options) {
     if (!flag(options, WFPSF_OPTION_STRUTS))
         return make_aperture(instrument.annular_pupil());
     return std::visit([](const auto &pupil) { return make_aperture(pupil); },
-                      instrument.pupil(sca, band));
+                      band ? instrument.pupil(sca, band) : instrument.pupils.front());
 }
 
 // Jitter and charge diffusion, native pixels^2.
@@ -138,7 +142,7 @@ wfpsf_status wfpsf_psf_create(const wfpsf_instrument *instrument, int32_t sca, d
         const Light light = one_colour(wavelength_nm);
         return create(
             i, i.zernikes(sca), {&light, 1}, false, options,
-            [&] { return make_aperture_of(i, sca, i.bands[0].name, options); }, out);
+            [&] { return make_aperture_of(i, sca, nullptr, options); }, out);
     });
 }
 
@@ -195,27 +199,12 @@ wfpsf_status wfpsf_psf_create_from_mask(const wfpsf_instrument *instrument, cons
         *out = nullptr;
         require_pointer(instrument, "instrument");
         require_pointer(mask, "mask");
-        require_finite(mask_scale_m, "mask_scale_m");
-        if (!(mask_scale_m > 0 && mask_scale_m <= 1))
-            fail(WFPSF_ERROR_RANGE, "mask_scale_m = %g: must be above 0, up to 1", mask_scale_m);
-        for (const auto &[name, value] :
-             {std::pair("axis_x", axis_x), std::pair("axis_y", axis_y)}) {
-            require_finite(value, name);
-            if (!(std::abs(value) <= 1e6))
-                fail(WFPSF_ERROR_RANGE, "%s = %g: must be -1e6..1e6", name, value);
-        }
+        check_pupil_sampling("mask_scale_m", mask_scale_m, axis_x, axis_y);
         const Instrument &i = instrument->instrument;
         const Light light = one_colour(wavelength_nm);
         const auto aperture = [&] {
-            return std::visit(
-                [&](auto pixels) {
-                    Plane<double> copy(pixels.nx, pixels.ny);
-                    for (int64_t y = 0; y < pixels.ny; ++y)
-                        for (int64_t x = 0; x < pixels.nx; ++x)
-                            copy(x, y) = static_cast<double>(pixels(x, y));
-                    return make_aperture(std::as_const(copy).view(), mask_scale_m, axis_x, axis_y);
-                },
-                mask->image.pixels());
+            const Plane<double> copy = copy_of(*mask);
+            return make_aperture(copy.view(), mask_scale_m, axis_x, axis_y);
         };
         return create(i, i.zernikes(sca), {&light, 1}, false, options, aperture, out);
     });

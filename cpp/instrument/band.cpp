@@ -3,6 +3,7 @@
 
 #include "error/error.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace wfpsf {
@@ -34,9 +35,9 @@ double throughput(const Band &band, double wavelength_nm) {
         fail(WFPSF_ERROR_NOT_FINITE, "wavelength_nm = %g: must be finite", wavelength_nm);
     const size_t last = band.throughput.size() - 1;
     const double position = (wavelength_nm - band.first_nm) / band.step_nm;
-    if (position < 0 || position >= static_cast<double>(last))
+    if (position < 0 || position > static_cast<double>(last))
         return 0;
-    const auto i = static_cast<size_t>(position);
+    const size_t i = std::min(static_cast<size_t>(position), last - 1);
     return std::lerp(band.throughput[i], band.throughput[i + 1], position - static_cast<double>(i));
 }
 

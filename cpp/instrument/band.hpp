@@ -8,8 +8,8 @@
 
 namespace wfpsf {
 
-// Throughput at uniform steps, linear in between. The first and the last sample are zero, those
-// next to them are not.
+// Throughput at uniform steps, linear in between, zero outside. No more than one sample at either
+// end is zero.
 struct Band {
     const char *name;
     double first_nm, step_nm;
@@ -33,7 +33,7 @@ double throughput(const Band &band, double wavelength_nm);
 // Integral of the throughput over wavelength, in nm.
 double integral_nm(const Band &band);
 
-// Of the curve as tabulated: the zero samples at its ends, and the exact mean of the piecewise
+// Of the curve as tabulated: where the table ends, and the exact mean of the piecewise
 // linear curve.
 BandWavelengths tabulated_wavelengths(const Band &band);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "instrument/field_interpolation.hpp"
 
+#include "error/error.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -74,6 +76,24 @@ Weights five_point_weights(std::span<const FieldPoint> points, double x, double 
 }
 
 } // namespace
+
+void check_field_points(std::span<const FieldPoint> points) {
+    const Rectangle r = bounds(points);
+    // No value at a field point may count for much more than itself within the rectangle.
+    constexpr double largest_weight = 100;
+    for (const double x : {r.x_low, r.x_high})
+        for (const double y : {r.y_low, r.y_high}) {
+            const bool corner_taken = std::ranges::any_of(points.subspan(1), [&](const auto &p) {
+                return (r.u(p.x_pix) > 0.5) == (x > r.x_low) &&
+                       (r.v(p.y_pix) > 0.5) == (y > r.y_low);
+            });
+            if (!corner_taken ||
+                !std::ranges::all_of(five_point_weights(points, x, y),
+                                     [](double w) { return std::abs(w) < largest_weight; }))
+                fail(WFPSF_ERROR_ARGUMENT,
+                     "field points: must be a centre and one point towards each corner around it");
+        }
+}
 
 std::vector<double> interpolate_field(std::span<const FieldPoint> points, double x_pix,
                                       double y_pix, FieldRule rule) {

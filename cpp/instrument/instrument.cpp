@@ -75,9 +75,8 @@ std::span<const double> Instrument::zernikes(int sca) const {
 std::vector<double> Instrument::zernikes(int sca, double x_pix, double y_pix,
                                          FieldRule rule) const {
     const std::span<const FieldPoint> points = field_points(sca);
-    const double last = constant("n_pix").value - 1;
-    check_position("x_pix", x_pix, last);
-    check_position("y_pix", y_pix, last);
+    check_position("x_pix", x_pix, static_cast<double>(pixels.x - 1));
+    check_position("y_pix", y_pix, static_cast<double>(pixels.y - 1));
     return interpolate_field(points, x_pix, y_pix, rule);
 }
 

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The instruments whose figures are compiled in.
+// An instrument: the figures of a telescope, its bands and its detectors. Those of the known ones
+// are compiled in; a Design makes others.
 #pragma once
 
 #include "instrument/band.hpp"
 #include "instrument/pupil.hpp"
 
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -38,13 +41,19 @@ enum class FieldRule {
 // Taps of a 3 x 3 kernel in out(p) = sum_d K(d) in(p - d): K(dx, dy) = taps[3 (dy + 1) + dx + 1].
 using IpcTaps = std::array<double, 9>;
 
+// Of a detector, active pixels.
+struct PixelCounts {
+    int64_t x, y;
+};
+
 struct Instrument {
     const char *name;
     std::span<const Constant> constants;
     std::span<const Band> bands;
     std::span<const FieldPoint> all_field_points; // by SCA, as many on each, its centre first
     std::span<const Pupil> pupils;                // by mask, then by SCA; or one that serves all
-    IpcTaps ipc_kernel;                           // the detectors' nominal one
+    std::optional<IpcTaps> ipc_kernel;            // the detectors' nominal one, if there is one
+    PixelCounts pixels;                           // of every detector
 
     // An unknown name of an instrument, constant or band: WFPSF_ERROR_UNKNOWN_NAME. An SCA that
     // does not exist: WFPSF_ERROR_RANGE.

@@ -5,6 +5,7 @@
 #include <array>
 #include <optional>
 #include <variant>
+#include <vector>
 
 namespace wfpsf {
 
@@ -75,7 +76,14 @@ struct RomanPupil {
     double fit_error; // as in SegmentedPupil
 };
 
-using Pupil = std::variant<SegmentedPupil, RomanPupil>;
+// A circular primary about the optical axis, behind a circular obscuration and any number of
+// struts.
+struct SpiderPupil {
+    double outer_radius, inner_radius; // the obscuration's may be 0
+    std::vector<Strut> struts;
+};
+
+using Pupil = std::variant<SegmentedPupil, RomanPupil, SpiderPupil>;
 
 // No struts: an annulus about the optical axis.
 struct AnnularPupil {

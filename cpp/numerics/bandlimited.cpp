@@ -185,7 +185,7 @@ AveragedSamples::AveragedSamples(double bandwidth, double width, Outline outline
         return BandlimitedInterpolator(h, beta_per_sample * h + deeper);
     };
     // Of one axis, for both filters; the average is the cheaper one to make better.
-    const double share = (std::max(eps, 8 * rounding) - rounding) / (2 * safety);
+    const double share = (std::max(eps, 3 * rounding) - rounding) / (2 * safety);
     // No shorter filter was ever good enough.
     const int shortest = std::max(2, static_cast<int>(std::log(0.02 / share) / beta_per_sample));
     const Spectrum spectrum(bandwidth, outline, shortest);

@@ -52,6 +52,8 @@ class Aperture {
 
 std::unique_ptr<const Aperture> make_aperture(const SegmentedPupil &pupil);
 std::unique_ptr<const Aperture> make_aperture(const RomanPupil &pupil);
+// WFPSF_ERROR_ARGUMENT if the struts leave less than a millionth of the primary lit.
+std::unique_ptr<const Aperture> make_aperture(const SpiderPupil &pupil);
 std::unique_ptr<const Aperture> make_aperture(const AnnularPupil &pupil);
 
 // A mask of transmissions in [0, 1]; pixels are squares of `scale` metres, and pixel position

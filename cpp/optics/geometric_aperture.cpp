@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A pupil given as geometry: areal quadrature and a nonuniform FFT.
+#include "error/error.hpp"
 #include "numerics/dispatch.hpp"
 #include "numerics/nufft.hpp"
 #include "numerics/phasor.hpp"
 #include "optics/aperture.hpp"
 #include "optics/pupil_nodes.hpp"
 #include "optics/roman_region.hpp"
+#include "optics/spider_region.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <complex>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <span>
@@ -22,6 +25,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 constexpr double rounding = 1e-13; // of |A|^2 in units of area^2: sums of 10^3 to 10^5 terms
+constexpr double most_nodes = 1e6; // that a map's roughness may lead to, about
 using Complex = std::complex<double>;
 
 // exp(2 pi i turns) times a weight.
@@ -47,10 +51,14 @@ struct Sources {
     }
 };
 
+struct Quadrature {
+    double wavenumber, eps; // of pupil_nodes()
+};
+
 // The intensity on the whole grid, by a nonuniform FFT.
 template <class Pupil>
 Diffraction transform(const Pupil &pupil, const Wavefront &wavefront, double wavelength,
-                      const FocalGrid &grid, double wavenumber, double quadrature_eps, double eps) {
+                      const FocalGrid &grid, const Quadrature &quadrature, double eps) {
     const double turn = 2 * pi / wavelength * grid.step;
     const Box box = bounds(pupil);
     Type1Transform nufft({turn * box.x0, turn * box.x1}, {turn * box.y0, turn * box.y1},
@@ -59,7 +67,7 @@ Diffraction transform(const Pupil &pupil, const Wavefront &wavefront, double wav
     Sources sources;
     std::vector<double> a, b;
     std::vector<Complex> c;
-    pupil_nodes(pupil, wavenumber, quadrature_eps, [&](const PupilNodes &nodes) {
+    pupil_nodes(pupil, quadrature.wavenumber, quadrature.eps, [&](const PupilNodes &nodes) {
         sources.take(nodes, wavefront);
         a.resize(nodes.size());
         b.resize(nodes.size());
@@ -131,6 +139,13 @@ WFPSF_VECTORISED void add_to_probes(const PupilNodes &nodes, const Sources &sour
     }
 }
 
+double largest(View<const double> intensity) {
+    double most = 0;
+    for (int64_t y = 0; y < intensity.ny; ++y)
+        most = std::max(most, *std::max_element(intensity.row(y), intensity.row(y) + intensity.nx));
+    return most;
+}
+
 template <class Pupil> class GeometricAperture final : public Aperture {
   public:
     GeometricAperture(const Pupil &pupil, double diameter, double fit_error)
@@ -145,45 +160,74 @@ template <class Pupil> class GeometricAperture final : public Aperture {
     Diffraction diffract(const Wavefront &wavefront, double wavelength, const FocalGrid &grid,
                          double eps) const override {
         // The fastest wave over the pupil: the grid's corner, plus the wavefront's own slope.
-        const double wavenumber =
-            2 * pi *
-            (std::numbers::sqrt2 * grid.largest_angle() / wavelength + wavefront.slope_bound());
+        const double of_grid = 2 * pi * std::numbers::sqrt2 * grid.largest_angle() / wavelength;
+        double wavenumber = of_grid + 2 * pi * wavefront.slope_bound();
+        // A map may be rougher than its slope tells: then the nodes grow denser, and where they
+        // would be too many, the error is reported as it is.
+        const bool rough = wavefront.has_map();
+        const double densest = std::max(pi * std::sqrt(most_nodes / area_), 2 * of_grid);
+        if (rough)
+            wavenumber = std::min(wavenumber, densest);
         // Far from the core a wrong amplitude meets a small one, so that the intensity is better
         // than the amplitude; the transform's errors are those of many sources, of which most
         // cancel. So start loosely and let the check decide.
+        double before = std::numeric_limits<double>::infinity();
         for (double asked = eps;;) {
-            const double quadrature_eps = std::min(0.1, 30 * asked);
-            Diffraction out =
-                transform(pupil_, wavefront, wavelength, grid, wavenumber, quadrature_eps, asked);
-            out.error = error(out.intensity.view(), wavefront, wavelength, grid, wavenumber,
-                              quadrature_eps * 1e-2);
+            const Quadrature own{wavenumber, std::min(0.1, 30 * asked)};
+            const Quadrature finer{(rough ? 1.3 : 1) * wavenumber, own.eps * 1e-2};
+            Diffraction out = transform(pupil_, wavefront, wavelength, grid, own, asked);
+            out.error = error(out.intensity.view(), wavefront, wavelength, grid, own, finer);
             out.model_error = fit_error_;
-            if (out.error <= eps || asked < 1e-18)
+            const bool stuck = rough && out.error > before / 3;
+            if (out.error <= eps || asked < 1e-18 || (stuck && wavenumber >= densest))
                 return out;
-            asked *= std::clamp(eps / out.error, 1e-3, 0.3);
+            if (stuck)
+                wavenumber = std::min(1.5 * wavenumber, densest);
+            else
+                asked *= std::clamp(eps / out.error, 1e-3, 0.3);
+            before = out.error;
         }
     }
 
   private:
-    // Four times the largest difference of |A|^2 from a finer quadrature that is summed plainly.
-    double error(View<const double> intensity, const Wavefront &wavefront, double wavelength,
-                 const FocalGrid &grid, double wavenumber, double finer_eps) const {
+    // The amplitude at the probes, by a plain sum.
+    std::array<Complex, per_axis * per_axis> at_probes(const Wavefront &wavefront,
+                                                       double wavelength, const FocalGrid &grid,
+                                                       const Quadrature &quadrature) const {
         const std::array<int64_t, per_axis> at = probes(grid);
         std::array<double, per_axis> turns;
         for (size_t i = 0; i < per_axis; ++i)
             turns[i] = grid.angle(at[i]) / wavelength;
         LaneSums sums;
         Sources sources;
-        pupil_nodes(pupil_, wavenumber, finer_eps, [&](const PupilNodes &nodes) {
+        pupil_nodes(pupil_, quadrature.wavenumber, quadrature.eps, [&](const PupilNodes &nodes) {
             sources.take(nodes, wavefront);
             add_to_probes(nodes, sources, turns, sums);
         });
+        std::array<Complex, per_axis * per_axis> amplitude;
+        for (size_t p = 0; p < amplitude.size(); ++p)
+            amplitude[p] = {std::accumulate(sums.re[p].begin(), sums.re[p].end(), 0.0),
+                            std::accumulate(sums.im[p].begin(), sums.im[p].end(), 0.0)};
+        return amplitude;
+    }
+
+    // Four times the largest difference of |A|^2 from a finer quadrature that is summed plainly.
+    // What a map's roughness makes of the amplitude is the same at all angles, and counts where the
+    // amplitude is largest.
+    double error(View<const double> intensity, const Wavefront &wavefront, double wavelength,
+                 const FocalGrid &grid, const Quadrature &own, const Quadrature &finer) const {
+        const std::array<int64_t, per_axis> at = probes(grid);
+        const auto truth = at_probes(wavefront, wavelength, grid, finer);
         double worst = 0;
-        for (size_t p = 0; p < sums.re.size(); ++p) {
-            const Complex amplitude(std::accumulate(sums.re[p].begin(), sums.re[p].end(), 0.0),
-                                    std::accumulate(sums.im[p].begin(), sums.im[p].end(), 0.0));
+        for (size_t p = 0; p < truth.size(); ++p)
             worst = std::max(worst, std::abs(intensity(at[p % per_axis], at[p / per_axis]) -
-                                             std::norm(amplitude)));
+                                             std::norm(truth[p])));
+        if (wavefront.has_map()) {
+            const auto mine = at_probes(wavefront, wavelength, grid, own);
+            double off = 0;
+            for (size_t p = 0; p < truth.size(); ++p)
+                off = std::max(off, std::abs(mine[p] - truth[p]));
+            worst = std::max(worst, (2 * std::sqrt(largest(intensity)) + off) * off);
         }
         return 4 * worst / (area_ * area_) + rounding;
     }
@@ -202,6 +246,17 @@ std::unique_ptr<const Aperture> make_aperture(const SegmentedPupil &pupil) {
 std::unique_ptr<const Aperture> make_aperture(const RomanPupil &pupil) {
     return std::make_unique<GeometricAperture<std::vector<Cell>>>(lit_cells(lit_region(pupil)),
                                                                   extent(pupil), pupil.fit_error);
+}
+
+std::unique_ptr<const Aperture> make_aperture(const SpiderPupil &pupil) {
+    const double radius = pupil.outer_radius;
+    if (pupil.struts.empty())
+        return make_aperture(AnnularPupil{radius, pupil.inner_radius});
+    auto aperture = std::make_unique<GeometricAperture<std::vector<Cell>>>(
+        lit_cells(lit_region(pupil)), 2 * radius, 0.0);
+    if (!(aperture->area() > 1e-6 * pi * radius * radius))
+        fail(WFPSF_ERROR_ARGUMENT, "struts: leave %g m^2 of the pupil lit", aperture->area());
+    return aperture;
 }
 
 std::unique_ptr<const Aperture> make_aperture(const AnnularPupil &pupil) {

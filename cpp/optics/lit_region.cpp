@@ -297,6 +297,11 @@ double Cell::Curve::at(double x) const {
     return std::visit([&](const auto &b) { return height(b, x, upper_half); }, bound);
 }
 
+std::array<HalfPlane, 3> sides(const Strut &s) {
+    return {HalfPlane{s.nx, s.ny, s.offset - s.width / 2},
+            HalfPlane{-s.nx, -s.ny, -s.offset - s.width / 2}, HalfPlane{-s.ny, s.nx, 0}};
+}
+
 std::vector<Cell> lit_cells(const LitRegion &region) {
     return Sweep(region).cells();
 }

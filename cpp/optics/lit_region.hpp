@@ -7,6 +7,7 @@
 #include "instrument/pupil.hpp"
 #include "optics/pupil_nodes.hpp"
 
+#include <array>
 #include <cstddef>
 #include <variant>
 #include <vector>
@@ -38,6 +39,9 @@ struct Cell {
     double x0, x1;
     Curve lower, upper;
 };
+
+// What bounds a strut: its two long sides, and the line through the origin where it begins.
+std::array<HalfPlane, 3> sides(const Strut &strut);
 
 std::vector<Cell> lit_cells(const LitRegion &region);
 

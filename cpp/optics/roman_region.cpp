@@ -66,9 +66,8 @@ class Map {
 };
 
 std::vector<Bound> bar(const Map &map, const Strut &s) {
-    return {map.image(HalfPlane{s.nx, s.ny, s.offset - s.width / 2}),
-            map.image(HalfPlane{-s.nx, -s.ny, -s.offset - s.width / 2}),
-            map.image(HalfPlane{-s.ny, s.nx, 0})};
+    const auto &[left, right, begin] = sides(s);
+    return {map.image(left), map.image(right), map.image(begin)};
 }
 
 // The line from the disc's centre to where a strut's middle passes the radius at which the

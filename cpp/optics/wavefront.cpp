@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <complex>
+#include <utility>
 
 namespace wfpsf {
 
@@ -108,7 +109,14 @@ Wavefront Wavefront::scaled(double factor) const {
             for (double &a : *polynomial)
                 a *= factor;
     copy.slope_bound_ *= std::abs(factor);
+    copy.waves_per_metre_ *= factor;
     return copy;
+}
+
+void Wavefront::add(std::shared_ptr<const OpdMap> map, double wavelength) {
+    map_ = std::move(map);
+    waves_per_metre_ = 1 / wavelength;
+    slope_bound_ += map_->slope_bound(radius_) * waves_per_metre_;
 }
 
 double Wavefront::operator()(double x, double y) const {
@@ -120,7 +128,7 @@ double Wavefront::operator()(double x, double y) const {
         sum += horner(order.cosine, t) * power.real() + horner(order.sine, t) * power.imag();
         power *= z;
     }
-    return sum;
+    return map_ ? sum + waves_per_metre_ * (*map_)(x, y) : sum;
 }
 
 void Wavefront::evaluate(std::span<const double> x, std::span<const double> y,
@@ -133,6 +141,9 @@ void Wavefront::evaluate(std::span<const double> x, std::span<const double> y,
             v[i] = y[first + i] / radius_;
         }
         add_orders(orders_, u, v, sum);
+        if (map_)
+            for (size_t i = 0; i < count; ++i)
+                sum[i] += waves_per_metre_ * (*map_)(x[first + i], y[first + i]);
         std::copy_n(sum.begin(), count, waves + first);
     }
 }

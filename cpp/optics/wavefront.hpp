@@ -3,6 +3,9 @@
 // 207; section 4.1 of the paper): Z_j has unit rms over the full circle, cos m theta for even j.
 #pragma once
 
+#include "optics/opd_map.hpp"
+
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -14,13 +17,18 @@ struct ZernikeOrder {
     std::vector<double> cosine, sine;
 };
 
-// W(x, y) = sum_j a_j Z_j(x / radius, y / radius), in the unit of the coefficients (waves).
+// W(x, y) = sum_j a_j Z_j(x / radius, y / radius), in the unit of the coefficients (waves), plus an
+// optical path difference map.
 class Wavefront {
   public:
     static constexpr int largest_j = 231; // radial order 20
 
     // coefficients[j - 1] belongs to Z_j; j up to largest_j.
     Wavefront(std::span<const double> coefficients, double radius);
+
+    // Adds an optical path difference, as waves of that length; the map is shared.
+    void add(std::shared_ptr<const OpdMap> map, double wavelength);
+    bool has_map() const { return map_ != nullptr; }
 
     double operator()(double x, double y) const;
     // The same at many points.
@@ -35,6 +43,8 @@ class Wavefront {
   private:
     std::vector<ZernikeOrder> orders_;
     double radius_, slope_bound_ = 0;
+    std::shared_ptr<const OpdMap> map_;
+    double waves_per_metre_ = 0; // of the map
 };
 
 } // namespace wfpsf

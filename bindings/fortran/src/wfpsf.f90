@@ -40,13 +40,15 @@ module wfpsf
         procedure :: get => options_get
         procedure :: reset => options_reset
         procedure :: set_zernikes => options_set_zernikes
+        procedure :: set_opd => options_set_opd
         final :: options_finalize
     end type wfpsf_options
 
-    ! The published figures of a telescope and its detectors.
+    ! The figures of a telescope and its detectors, published or of a design.
     type, extends(handle) :: wfpsf_instrument
     contains
         procedure :: create => instrument_create
+        procedure :: create_from_design => instrument_create_from_design
         procedure :: destroy => instrument_destroy
         procedure :: constant => instrument_constant
         procedure :: constant_name => instrument_constant_name
@@ -56,6 +58,20 @@ module wfpsf
         procedure :: zernikes => instrument_zernikes
         final :: instrument_finalize
     end type wfpsf_instrument
+
+    ! Figures of one's own, to make an instrument of.
+    type, extends(handle) :: wfpsf_design
+    contains
+        procedure :: create => design_create
+        procedure :: destroy => design_destroy
+        procedure :: set_telescope => design_set_telescope
+        procedure :: add_strut => design_add_strut
+        procedure :: set_detector => design_set_detector
+        procedure :: set_zernikes => design_set_zernikes
+        procedure :: set_field => design_set_field
+        procedure :: add_band => design_add_band
+        final :: design_finalize
+    end type wfpsf_design
 
     ! Pixels and the record of what has been done to them. An image either owns its pixels (create,
     ! read_fits) or stands on an array of the caller's (wrap).
@@ -209,6 +225,16 @@ module wfpsf
             character(len=*), intent(inout), optional :: errmsg
         end subroutine options_set_zernikes
 
+        ! An optical path difference map in metres, added to the wavefront; scale_m between samples,
+        ! the optical axis at sample (axis_x, axis_y). An empty map takes the present one away.
+        module subroutine options_set_opd(self, map, scale_m, axis_x, axis_y, stat, errmsg)
+            class(wfpsf_options), intent(inout) :: self
+            type(wfpsf_image), intent(in) :: map
+            real(real64), intent(in) :: scale_m, axis_x, axis_y
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine options_set_opd
+
         impure elemental module subroutine options_finalize(self)
             type(wfpsf_options), intent(inout) :: self
         end subroutine options_finalize
@@ -217,7 +243,7 @@ module wfpsf
     ! Instruments.
     private :: instrument_create, instrument_destroy, instrument_constant, instrument_constant_name
     private :: instrument_band, instrument_band_name, instrument_throughput, instrument_zernikes
-    private :: instrument_finalize
+    private :: instrument_create_from_design, instrument_finalize
     interface
         ! name: "wfirst-afta-c5".
         module subroutine instrument_create(self, name, stat, errmsg)
@@ -226,6 +252,13 @@ module wfpsf
             integer, intent(out), optional :: stat
             character(len=*), intent(inout), optional :: errmsg
         end subroutine instrument_create
+
+        module subroutine instrument_create_from_design(self, design, stat, errmsg)
+            class(wfpsf_instrument), intent(inout) :: self
+            type(wfpsf_design), intent(in) :: design
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine instrument_create_from_design
 
         module subroutine instrument_destroy(self)
             class(wfpsf_instrument), intent(inout) :: self
@@ -288,6 +321,84 @@ module wfpsf
         impure elemental module subroutine instrument_finalize(self)
             type(wfpsf_instrument), intent(inout) :: self
         end subroutine instrument_finalize
+    end interface
+
+    ! Designs.
+    private :: design_create, design_destroy, design_set_telescope, design_add_strut
+    private :: design_set_detector, design_set_zernikes, design_set_field, design_add_band
+    private :: design_finalize
+    interface
+        module subroutine design_create(self, stat, errmsg)
+            class(wfpsf_design), intent(inout) :: self
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine design_create
+
+        module subroutine design_destroy(self)
+            class(wfpsf_design), intent(inout) :: self
+        end subroutine design_destroy
+
+        ! obscuration: linear, of the diameter. reference_wavelength_nm: of Zernike coefficients.
+        module subroutine design_set_telescope(self, diameter_m, obscuration, &
+            reference_wavelength_nm, stat, errmsg)
+            class(wfpsf_design), intent(inout) :: self
+            real(real64), intent(in) :: diameter_m, obscuration, reference_wavelength_nm
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine design_set_telescope
+
+        ! A dark bar from the axis outwards; offset_m (0 if left out) moves it towards
+        ! azimuth_deg + 90.
+        module subroutine design_add_strut(self, azimuth_deg, width_m, offset_m, stat, errmsg)
+            class(wfpsf_design), intent(inout) :: self
+            real(real64), intent(in) :: azimuth_deg, width_m
+            real(real64), intent(in), optional :: offset_m
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine design_add_strut
+
+        module subroutine design_set_detector(self, sca_count, pixel_scale_arcsec, n_pix_x, n_pix_y, &
+            stat, errmsg)
+            class(wfpsf_design), intent(inout) :: self
+            integer, intent(in) :: sca_count, n_pix_x, n_pix_y
+            real(real64), intent(in) :: pixel_scale_arcsec
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine design_set_detector
+
+        ! Aberrations all over a detector: Noll order from j = 1, waves rms at the reference
+        ! wavelength.
+        module subroutine design_set_zernikes(self, sca, coefficients, stat, errmsg)
+            class(wfpsf_design), intent(inout) :: self
+            integer, intent(in) :: sca
+            real(real64), intent(in), contiguous :: coefficients(:)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine design_set_zernikes
+
+        ! Aberrations at five points of a detector, the centre first: coefficients(:, i) at pixel
+        ! (x(i), y(i)).
+        module subroutine design_set_field(self, sca, x, y, coefficients, stat, errmsg)
+            class(wfpsf_design), intent(inout) :: self
+            integer, intent(in) :: sca
+            real(real64), intent(in), contiguous :: x(:), y(:), coefficients(:, :)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine design_set_field
+
+        ! Throughput at first_nm, first_nm + step_nm, ...; linear in between, zero outside.
+        module subroutine design_add_band(self, name, first_nm, step_nm, throughput, stat, errmsg)
+            class(wfpsf_design), intent(inout) :: self
+            character(len=*), intent(in) :: name
+            real(real64), intent(in) :: first_nm, step_nm
+            real(real64), intent(in), contiguous :: throughput(:)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine design_add_band
+
+        impure elemental module subroutine design_finalize(self)
+            type(wfpsf_design), intent(inout) :: self
+        end subroutine design_finalize
     end interface
 
     ! Images.

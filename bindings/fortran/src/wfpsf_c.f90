@@ -464,7 +464,113 @@ module wfpsf_c
             integer(c_int32_t) :: outcome
         end function wfpsf_instrument_zernikes
 
+        ! design.h
+        function wfpsf_design_create(out) bind(c, name="wfpsf_design_create") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_design_create
+
+        subroutine wfpsf_design_destroy(design) bind(c, name="wfpsf_design_destroy")
+            import :: c_ptr
+            implicit none
+            type(c_ptr), value :: design
+        end subroutine wfpsf_design_destroy
+
+        function wfpsf_design_set_telescope(design, diameter_m, obscuration, &
+            reference_wavelength_nm) bind(c, name="wfpsf_design_set_telescope") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: design
+            real(c_double), value :: diameter_m
+            real(c_double), value :: obscuration
+            real(c_double), value :: reference_wavelength_nm
+            integer(c_int32_t) :: outcome
+        end function wfpsf_design_set_telescope
+
+        function wfpsf_design_add_strut(design, azimuth_deg, width_m, offset_m) &
+            bind(c, name="wfpsf_design_add_strut") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: design
+            real(c_double), value :: azimuth_deg
+            real(c_double), value :: width_m
+            real(c_double), value :: offset_m
+            integer(c_int32_t) :: outcome
+        end function wfpsf_design_add_strut
+
+        function wfpsf_design_set_detector(design, sca_count, pixel_scale_arcsec, n_pix_x, &
+            n_pix_y) bind(c, name="wfpsf_design_set_detector") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: design
+            integer(c_int32_t), value :: sca_count
+            real(c_double), value :: pixel_scale_arcsec
+            integer(c_int64_t), value :: n_pix_x
+            integer(c_int64_t), value :: n_pix_y
+            integer(c_int32_t) :: outcome
+        end function wfpsf_design_set_detector
+
+        function wfpsf_design_set_zernikes(design, sca, count, coefficients) &
+            bind(c, name="wfpsf_design_set_zernikes") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: design
+            integer(c_int32_t), value :: sca
+            integer(c_int64_t), value :: count
+            real(c_double), intent(in), optional :: coefficients(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_design_set_zernikes
+
+        function wfpsf_design_set_field(design, sca, x, y, count, coefficients) &
+            bind(c, name="wfpsf_design_set_field") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: design
+            integer(c_int32_t), value :: sca
+            real(c_double), intent(in), optional :: x(*)
+            real(c_double), intent(in), optional :: y(*)
+            integer(c_int64_t), value :: count
+            real(c_double), intent(in), optional :: coefficients(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_design_set_field
+
+        function wfpsf_design_add_band(design, name, first_nm, step_nm, count, throughput) &
+            bind(c, name="wfpsf_design_add_band") result(outcome)
+            import :: c_char, c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: design
+            character(kind=c_char), intent(in), optional :: name(*)
+            real(c_double), value :: first_nm
+            real(c_double), value :: step_nm
+            integer(c_int64_t), value :: count
+            real(c_double), intent(in), optional :: throughput(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_design_add_band
+
+        function wfpsf_instrument_create_from_design(design, out) &
+            bind(c, name="wfpsf_instrument_create_from_design") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: design
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_instrument_create_from_design
+
         ! psf.h
+        function wfpsf_options_set_opd(options, map, scale_m, axis_x, axis_y) &
+            bind(c, name="wfpsf_options_set_opd") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: options
+            type(c_ptr), value :: map
+            real(c_double), value :: scale_m
+            real(c_double), value :: axis_x
+            real(c_double), value :: axis_y
+            integer(c_int32_t) :: outcome
+        end function wfpsf_options_set_opd
+
         function wfpsf_psf_create(instrument, sca, wavelength_nm, options, out) &
             bind(c, name="wfpsf_psf_create") result(outcome)
             import :: c_double, c_int32_t, c_ptr

@@ -57,6 +57,11 @@ contains
             coefficients), stat, errmsg)
     end procedure options_set_zernikes
 
+    module procedure options_set_opd
+        call report(wfpsf_options_set_opd(self%pointer, map%pointer, scale_m, axis_x - 1, &
+            axis_y - 1), stat, errmsg)
+    end procedure options_set_opd
+
     module procedure options_finalize
         call self%destroy()
     end procedure options_finalize

@@ -23,6 +23,7 @@ program test_arrays
     call interleaves()
     call passes_taps()
     call passes_instrument_arrays()
+    call designs()
 
 contains
 
@@ -239,5 +240,66 @@ contains
         call options%create()
         call options%set_zernikes(-coefficients)
     end subroutine passes_instrument_arrays
+
+    ! A design's band, field and map come through, and in pixels that count from 1.
+    subroutine designs()
+        type(wfpsf_design) :: design
+        type(wfpsf_instrument) :: instrument
+        type(wfpsf_options) :: options
+        type(wfpsf_image) :: map, star, moved
+        type(wfpsf_psf) :: psf
+        real(real64) :: x(5), y(5), field(4, 5), value
+        real(real64), target :: opd(8, 8)
+        real(real64), allocatable :: pixels(:, :), shifted(:, :)
+        integer :: i, stat
+
+        x = [50, 1, 100, 1, 100]
+        y = [50, 1, 1, 100, 100]
+        field = 0
+        field(4, :) = [0.1_real64, 0.2_real64, 0.2_real64, 0.2_real64, 0.2_real64]
+        call design%create()
+        call design%set_telescope(2.4_real64, 0.3_real64, 1000.0_real64)
+        call design%add_strut(30.0_real64, 0.05_real64)
+        call design%add_strut(210.0_real64, 0.05_real64, 0.1_real64)
+        call design%set_detector(1, 0.1_real64, 100, 100)
+        call design%set_field(1, x, y, field)
+        call design%set_field(1, x(:4), y, field, stat)
+        call expect(stat == wfpsf_error_range, "four field points")
+        call design%add_band("mine", 900.0_real64, 100.0_real64, [0.5_real64, 1.0_real64])
+        call design%set_zernikes(2, [0.0_real64])
+        call instrument%create_from_design(design, stat)
+        call expect(stat == wfpsf_error_range .and. instrument%is_empty(), "an SCA too many")
+
+        call design%create()
+        call design%set_telescope(2.4_real64, 0.3_real64, 1000.0_real64)
+        call design%set_detector(1, 0.1_real64, 100, 100)
+        call design%set_zernikes(1, [0.0_real64, 0.0_real64, 0.0_real64, 0.1_real64])
+        call design%add_band("mine", 900.0_real64, 100.0_real64, [0.5_real64, 1.0_real64])
+        call instrument%create_from_design(design)
+        call instrument%constant("n_pix_y", value)
+        call expect(nint(value) == 100, "a constant of a design")
+        call expect(instrument%band_name(1) == "mine", "a band of a design")
+
+        ! A tilt of one pixel moves the star by a pixel, against the phase.
+        opd = spread([(i - 4.5_real64, i = 1, 8)], 2, 8) * 0.5_real64 * 0.1_real64 &
+            * acos(-1.0_real64) / 180 / 3600
+        call options%create()
+        call options%set(wfpsf_option_psf_radius, 8.0_real64)
+        call psf%create_in_band(instrument, "mine", 1, 50.0_real64, 50.0_real64, 0.0_real64, options)
+        call star%create(wfpsf_float64, 11, 11, 1)
+        call moved%create(wfpsf_float64, 11, 11, 1)
+        call psf%draw(7.0_real64, 6.0_real64, 1.0_real64, star)
+        call map%wrap(opd, 1)
+        call options%set_opd(map, 0.5_real64, 4.5_real64, 4.5_real64)
+        call psf%create_in_band(instrument, "mine", 1, 50.0_real64, 50.0_real64, 0.0_real64, options)
+        call psf%draw(8.0_real64, 6.0_real64, 1.0_real64, moved)
+        call star%get_pixels(pixels)
+        call moved%get_pixels(shifted)
+        call expect(maxval(abs(pixels - shifted)) < 4e-6_real64 * maxval(pixels), "a tilt")
+        call options%set_opd(map, -0.5_real64, 4.5_real64, 4.5_real64, stat)
+        call expect(stat == wfpsf_error_range, "a negative scale")
+        call map%destroy()
+        call options%set_opd(map, 0.5_real64, 4.5_real64, 4.5_real64)
+    end subroutine designs
 
 end program test_arrays

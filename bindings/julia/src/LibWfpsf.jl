@@ -287,6 +287,67 @@ function wfpsf_instrument_zernikes(instrument, sca, capacity, coefficients, coun
         instrument, sca, capacity, coefficients, count)
 end
 
+# design.h
+const wfpsf_design_create_pointer = Ref(C_NULL)
+function wfpsf_design_create(out)
+    return ccall(wfpsf_design_create_pointer[], Int32, (Ptr{Ptr{Cvoid}},),
+        out)
+end
+
+const wfpsf_design_destroy_pointer = Ref(C_NULL)
+function wfpsf_design_destroy(design)
+    return ccall(wfpsf_design_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
+        design)
+end
+
+const wfpsf_design_set_telescope_pointer = Ref(C_NULL)
+function wfpsf_design_set_telescope(design, diameter_m, obscuration, reference_wavelength_nm)
+    return ccall(wfpsf_design_set_telescope_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64,
+        Float64),
+        design, diameter_m, obscuration, reference_wavelength_nm)
+end
+
+const wfpsf_design_add_strut_pointer = Ref(C_NULL)
+function wfpsf_design_add_strut(design, azimuth_deg, width_m, offset_m)
+    return ccall(wfpsf_design_add_strut_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64, Float64),
+        design, azimuth_deg, width_m, offset_m)
+end
+
+const wfpsf_design_set_detector_pointer = Ref(C_NULL)
+function wfpsf_design_set_detector(design, sca_count, pixel_scale_arcsec, n_pix_x, n_pix_y)
+    return ccall(wfpsf_design_set_detector_pointer[], Int32, (Ptr{Cvoid}, Int32, Float64, Int64,
+        Int64),
+        design, sca_count, pixel_scale_arcsec, n_pix_x, n_pix_y)
+end
+
+const wfpsf_design_set_zernikes_pointer = Ref(C_NULL)
+function wfpsf_design_set_zernikes(design, sca, count, coefficients)
+    return ccall(wfpsf_design_set_zernikes_pointer[], Int32, (Ptr{Cvoid}, Int32, Int64,
+        Ptr{Float64}),
+        design, sca, count, coefficients)
+end
+
+const wfpsf_design_set_field_pointer = Ref(C_NULL)
+function wfpsf_design_set_field(design, sca, x, y, count, coefficients)
+    return ccall(wfpsf_design_set_field_pointer[], Int32, (Ptr{Cvoid}, Int32, Ptr{Float64},
+        Ptr{Float64}, Int64, Ptr{Float64}),
+        design, sca, x, y, count, coefficients)
+end
+
+const wfpsf_design_add_band_pointer = Ref(C_NULL)
+function wfpsf_design_add_band(design, name, first_nm, step_nm, count, throughput)
+    return ccall(wfpsf_design_add_band_pointer[], Int32, (Ptr{Cvoid}, Cstring, Float64, Float64,
+        Int64, Ptr{Float64}),
+        design, name, first_nm, step_nm, count, throughput)
+end
+
+const wfpsf_instrument_create_from_design_pointer = Ref(C_NULL)
+function wfpsf_instrument_create_from_design(design, out)
+    return ccall(wfpsf_instrument_create_from_design_pointer[], Int32, (Ptr{Cvoid},
+        Ptr{Ptr{Cvoid}}),
+        design, out)
+end
+
 # psf.h
 const WFPSF_PSF_WAVELENGTH_NM = Int32(10)
 const WFPSF_PSF_PIXEL_SCALE_ARCSEC = Int32(20)
@@ -298,6 +359,13 @@ const WFPSF_PSF_GRID_SIZE = Int32(70)
 const WFPSF_PSF_GRID_STEP_ARCSEC = Int32(80)
 const WFPSF_PSF_RADIUS = Int32(90)
 const WFPSF_PSF_LIT_AREA_M2 = Int32(100)
+
+const wfpsf_options_set_opd_pointer = Ref(C_NULL)
+function wfpsf_options_set_opd(options, map, scale_m, axis_x, axis_y)
+    return ccall(wfpsf_options_set_opd_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Float64, Float64,
+        Float64),
+        options, map, scale_m, axis_x, axis_y)
+end
 
 const wfpsf_psf_create_pointer = Ref(C_NULL)
 function wfpsf_psf_create(instrument, sca, wavelength_nm, options, out)
@@ -523,6 +591,16 @@ const pointers = [
     :wfpsf_instrument_band => wfpsf_instrument_band_pointer,
     :wfpsf_instrument_throughput => wfpsf_instrument_throughput_pointer,
     :wfpsf_instrument_zernikes => wfpsf_instrument_zernikes_pointer,
+    :wfpsf_design_create => wfpsf_design_create_pointer,
+    :wfpsf_design_destroy => wfpsf_design_destroy_pointer,
+    :wfpsf_design_set_telescope => wfpsf_design_set_telescope_pointer,
+    :wfpsf_design_add_strut => wfpsf_design_add_strut_pointer,
+    :wfpsf_design_set_detector => wfpsf_design_set_detector_pointer,
+    :wfpsf_design_set_zernikes => wfpsf_design_set_zernikes_pointer,
+    :wfpsf_design_set_field => wfpsf_design_set_field_pointer,
+    :wfpsf_design_add_band => wfpsf_design_add_band_pointer,
+    :wfpsf_instrument_create_from_design => wfpsf_instrument_create_from_design_pointer,
+    :wfpsf_options_set_opd => wfpsf_options_set_opd_pointer,
     :wfpsf_psf_create => wfpsf_psf_create_pointer,
     :wfpsf_psf_create_in_band => wfpsf_psf_create_in_band_pointer,
     :wfpsf_psf_create_from_mask => wfpsf_psf_create_from_mask_pointer,

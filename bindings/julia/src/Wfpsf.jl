@@ -26,6 +26,7 @@ without it the system's loader looks for `libwfpsf`.
 module Wfpsf
 
 export WfpsfError, options,
+    Design, set_telescope!, add_strut!, set_detector!, set_zernikes!, add_band!,
     Instrument, constant, constants, band, bands, throughput, zernikes,
     Image, record, set_record!, read_fits, write_fits,
     interleave, interleave!, deinterleave, deinterleave!,
@@ -41,6 +42,7 @@ include("status.jl")
 include("names.jl")
 include("handle.jl")
 include("options.jl")
+include("design.jl")
 include("instrument.jl")
 include("image.jl")
 include("interleave.jl")

@@ -4,14 +4,18 @@ const BAND_RULES = constants_of("WFPSF_BAND_")
 
 """
     Instrument(name = "wfirst-afta-c5")
+    Instrument(design)
     Instrument(f, ...)
 
-The published figures of a telescope and its detectors. Immutable: threads may share it.
+The figures of a telescope and its detectors, published ones or those of a [`Design`](@ref).
+Immutable: threads may share it.
 """
 mutable struct Instrument <: Handle
     pointer::Ptr{Cvoid}
     Instrument(name::AbstractString = "wfirst-afta-c5") =
         finalizer(close, new(created(out -> LibWfpsf.wfpsf_instrument_create(name, out))))
+    Instrument(design::Design) = finalizer(
+        close, new(created(out -> LibWfpsf.wfpsf_instrument_create_from_design(design, out))))
 end
 
 destroy(::Instrument, pointer) = LibWfpsf.wfpsf_instrument_destroy(pointer)

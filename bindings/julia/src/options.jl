@@ -43,6 +43,9 @@ function set!(options, name, value)
     if name === :zernikes
         numbers = collect(Float64, value)
         check(LibWfpsf.wfpsf_options_set_zernikes(options, length(numbers), numbers))
+    elseif name === :opd
+        check(LibWfpsf.wfpsf_options_set_opd(options, value.map, value.scale_m, value.axis_x - 1,
+                                             value.axis_y - 1))
     elseif describe(name).integer
         check(LibWfpsf.wfpsf_options_set_integer(options, OPTIONS[name], value))
     else

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 
 const PSF_PROPERTIES = constants_of("WFPSF_PSF_")
-const PSF_OPTIONS = (:eps, :struts, :psf_radius, :piston_tilt, :frame, :field_rule, :zernikes)
+const PSF_OPTIONS = (:eps, :struts, :psf_radius, :piston_tilt, :frame, :field_rule, :zernikes, :opd)
 const STAR_OPTIONS = (:threads, :force)
 
 """
@@ -15,8 +15,10 @@ averaged over the native pixel. Immutable: threads may share it. The instrument 
 afterwards.
 
 Options: `eps` (largest error of any pixel, in units of the stamp's peak), `struts`, `psf_radius`
-(native pixels made in advance), `piston_tilt`, and `zernikes`, a vector of extra aberrations in
-Noll's order (waves rms at the instrument's reference wavelength).
+(native pixels made in advance), `piston_tilt`, `zernikes`, a vector of extra aberrations in Noll's
+order (waves rms at the instrument's reference wavelength), and `opd = (map = image, scale_m = s,
+axis_x = x, axis_y = y)`, an [`Image`](@ref) of optical path differences in metres, `s` metres from
+sample to sample, with the optical axis at sample (x, y), the first one's centre being (1, 1).
 
 The second form is the PSF at (x, y), pixels of the detector (the first one's centre is (1, 1)), and
 takes the pupil that the band is used with; `"roman-c9"` needs it. `wavelength_nm = 0` is the band's

@@ -22,7 +22,7 @@ function status_of(call)
 end
 
 @testset "Wfpsf" begin
-    @testset "$subject" for subject in ("handle", "options", "instrument", "image", "interleave",
+    @testset "$subject" for subject in ("handle", "options", "instrument", "design", "image", "interleave",
                                         "psf", "ipc", "moments", "size")
         include("$subject.jl")
     end

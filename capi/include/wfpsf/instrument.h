@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later */
 /**
  * @file instrument.h
- * Instruments: the published figures of a telescope and its detectors, compiled in.
+ * Instruments: the figures of a telescope and its detectors. The published ones are compiled in;
+ * design.h makes others from figures of your own.
  *
  * Known: "wfirst-afta-c5", the paper's (WFIRST-AFTA Cycle 5, July 2015), and "roman-c9" (Roman
  * Wide Field Instrument, Cycle 9).
@@ -39,7 +40,9 @@ WFPSF_EXPORT wfpsf_status wfpsf_instrument_create(const char *name, wfpsf_instru
 WFPSF_EXPORT void wfpsf_instrument_destroy(wfpsf_instrument *instrument);
 
 /**
- * A constant by name, such as "diameter" (m) or "pixel_scale" (arcsec).
+ * A constant by name, such as "diameter" (m) or "pixel_scale" (arcsec). An instrument made from a
+ * design has "diameter", "obscuration", "pixel_scale", "n_sca", "n_pix" (the longer side),
+ * "n_pix_x", "n_pix_y", "zemax_wavelength" (the reference wavelength, nm) and "zernike_jmax".
  *
  * Returned: value, unit  unit is a static string, may be asked for with NULL
  * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME
@@ -49,8 +52,9 @@ WFPSF_EXPORT wfpsf_status wfpsf_instrument_constant(const wfpsf_instrument *inst
                                                     const char **unit);
 
 /**
- * The name of the index-th constant, or of the index-th band in order of wavelength; a static
- * string, NULL when the index is past the last one or the handle is NULL.
+ * The name of the index-th constant, or of the index-th band, in order of wavelength or as a design
+ * lists them; a string that lives as long as the instrument, NULL when the index is past the last
+ * one or the handle is NULL.
  */
 WFPSF_EXPORT const char *wfpsf_instrument_constant_name(const wfpsf_instrument *instrument,
                                                         int64_t index);

@@ -42,14 +42,39 @@ enum { WFPSF_PSF_PROPERTY_LIST(WFPSF_PSF_PROPERTY_ENUM) };
 #undef WFPSF_PSF_PROPERTY_ENUM
 
 /**
+ * An optical path difference (OPD) map, added to the wavefront of every PSF made with the options:
+ * W in waves is the sum of Zernike terms plus OPD / wavelength, so that a map of
+ * coefficient * reference wavelength * Z_j adds what the coefficient does. Between the samples
+ * stands the bicubic spline that meets them all, with an error that falls as the fourth power of
+ * their distance; beyond the outermost samples' centres, the value at the nearest point of the
+ * border. Nothing of the map is dropped, its tilt included. Let it go on smoothly beyond the
+ * pupil's edge: a jump there rings through several samples. A pupil mask sampled like the map meets
+ * its samples.
+ *
+ * A map that is too rough for the number of nodes that a PSF takes at most, about a million, gives
+ * WARNING_NOT_CERTIFIED, with an error estimate that holds.
+ *
+ * Given:    map             metres, -0.001..0.001, at least 4 x 4 samples, at most 8192 x 8192, of
+ *                           either pixel type; copied. Its record of effects does not matter. NULL
+ *                           takes the present map away
+ *           scale_m         distance of the samples in the pupil, above 0, up to 1
+ *           axis_x, axis_y  the sample at which the optical axis passes, the first one's centre at
+ *                           (0, 0); -1e6..1e6
+ * Status:   ERROR_NULL, ERROR_SIZE, ERROR_RANGE, ERROR_NOT_FINITE, ERROR_NO_MEMORY; the options
+ * then keep their map
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_options_set_opd(wfpsf_options *options, const wfpsf_image *map,
+                                                double scale_m, double axis_x, double axis_y);
+
+/**
  * The monochromatic effective PSF at the centre of a detector, for an instrument with one pupil
- * ("wfirst-afta-c5").
+ * ("wfirst-afta-c5", and all made from a design).
  *
  * Given:    instrument     may be freed afterwards
- *           sca            1..18
+ *           sca            1..n_sca
  *           wavelength_nm  100..100000
  *           options        EPS, STRUTS, PSF_RADIUS, PISTON_TILT, JITTER_*, CHARGE_DIFFUSION,
- *                          extra Zernikes and the progress function
+ *                          extra Zernikes, an OPD map and the progress function
  * Returned: out            the handle; NULL on failure
  * Status:   ERROR_NULL, ERROR_RANGE, ERROR_NOT_FINITE, ERROR_NO_MEMORY;
  *           ERROR_ARGUMENT if the pupil depends on the band (wfpsf_psf_create_in_band());

@@ -6,6 +6,7 @@
 #ifndef WFPSF_H
 #define WFPSF_H
 
+#include <wfpsf/design.h>
 #include <wfpsf/image.h>
 #include <wfpsf/instrument.h>
 #include <wfpsf/ipc.h>

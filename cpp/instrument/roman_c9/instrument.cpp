@@ -10,7 +10,8 @@ Instrument instrument() {
             .bands = bands(),
             .all_field_points = field_points(),
             .pupils = pupils(),
-            .ipc_kernel = nominal_ipc_kernel()};
+            .ipc_kernel = nominal_ipc_kernel(),
+            .pixels = {4088, 4088}};
 }
 
 } // namespace wfpsf::roman_c9

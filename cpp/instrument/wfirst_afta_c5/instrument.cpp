@@ -11,7 +11,8 @@ Instrument instrument() {
             .bands = bands(),
             .all_field_points = field_points(),
             .pupils = {&common, 1},
-            .ipc_kernel = nominal_ipc_kernel()};
+            .ipc_kernel = nominal_ipc_kernel(),
+            .pixels = {4088, 4088}};
 }
 
 } // namespace wfpsf::wfirst_afta_c5

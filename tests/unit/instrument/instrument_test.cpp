@@ -75,6 +75,7 @@ TEST(Instrument, HasOneFieldPointInTheMiddleOfEachDetector) {
         const auto points = c5().field_points(sca);
         ASSERT_EQ(points.size(), 1u);
         EXPECT_EQ(points[0].x_pix, (c5().constant("n_pix").value - 1) / 2);
+        EXPECT_EQ(c5().constant("n_pix").value, static_cast<double>(c5().pixels.x));
         EXPECT_EQ(points[0].y_pix, (c5().constant("n_pix").value - 1) / 2);
         EXPECT_EQ(points[0].zernikes.data(), c5().zernikes(sca).data());
     }
@@ -91,7 +92,7 @@ TEST(Instrument, KeepsTheIpcKernelAsAConvolution) {
             raw_sum += weight;
     for (int dy = -1; dy <= 1; ++dy)
         for (int dx = -1; dx <= 1; ++dx) {
-            const double tap = c5().ipc_kernel[static_cast<size_t>(3 * (dy + 1) + dx + 1)];
+            const double tap = (*c5().ipc_kernel)[static_cast<size_t>(3 * (dy + 1) + dx + 1)];
             EXPECT_NEAR(tap, raw[1 - dy][1 - dx] / raw_sum, 1e-15) << dx << ' ' << dy;
             sum += tap;
         }
