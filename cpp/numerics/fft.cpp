@@ -4,6 +4,7 @@
 #include <map>
 #include <mutex>
 #include <new>
+#include <utility>
 
 #include <fftw3.h>
 
@@ -24,16 +25,18 @@ int64_t good_fft_length(int64_t n) {
     }
 }
 
-BackwardFft::BackwardFft(int64_t n) {
+BackwardFft::BackwardFft(int64_t nx, int64_t ny) {
     static std::mutex lock;
     // For the life of the process: never destroyed, so that threads may outlive main().
-    static auto &plans = *new std::map<int64_t, fftw_plan>;
+    static auto &plans = *new std::map<std::pair<int64_t, int64_t>, fftw_plan>;
     const std::lock_guard guard(lock);
-    fftw_plan &plan = plans[n];
+    fftw_plan &plan = plans[{nx, ny}];
     if (!plan) {
         // Unaligned, so that any buffer will do; an estimate does not touch the data.
-        plan = fftw_plan_dft_1d(static_cast<int>(n), nullptr, nullptr, FFTW_BACKWARD,
-                                FFTW_ESTIMATE | FFTW_UNALIGNED);
+        const int sizes[] = {static_cast<int>(ny), static_cast<int>(nx)};
+        const int skipped = ny == 1 ? 1 : 0;
+        plan = fftw_plan_dft(2 - skipped, sizes + skipped, nullptr, nullptr, FFTW_BACKWARD,
+                             FFTW_ESTIMATE | FFTW_UNALIGNED);
         if (!plan)
             throw std::bad_alloc();
     }

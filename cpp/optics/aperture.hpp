@@ -7,6 +7,7 @@
 
 #include "image/view.hpp"
 #include "instrument/pupil.hpp"
+#include "optics/pupil_raster.hpp"
 #include "optics/wavefront.hpp"
 
 #include <complex>
@@ -39,6 +40,9 @@ class Aperture {
     // Amplitude with |A|^2 good to about `eps` of area^2, the peak of the unaberrated PSF.
     virtual Amplitude amplitude(const Wavefront &wavefront, double wavelength,
                                 const FocalGrid &grid, double eps) const = 0;
+
+    // The pupil on n by n square pixels, or on its own.
+    virtual PupilRaster raster(int64_t n) const = 0;
 
     double area() const { return area_; }         // lit, m^2
     double diameter() const { return diameter_; } // the larger extent along x or y, m

@@ -71,8 +71,9 @@ Probes sum_at_probes(const PupilNodes &nodes, const Wavefront &wavefront, double
 
 template <class Pupil> class GeometricAperture final : public Aperture {
   public:
-    GeometricAperture(const Pupil &pupil, double diameter, double fit_error)
-        : pupil_(pupil), fit_error_(fit_error) {
+    GeometricAperture(const Pupil &pupil, std::vector<LitPart> parts, double diameter,
+                      double fit_error)
+        : pupil_(pupil), parts_(std::move(parts)), fit_error_(fit_error) {
         const PupilNodes nodes = pupil_nodes(pupil, 1, 1e-15);
         for (const double weight : nodes.weight)
             area_ += weight;
@@ -98,6 +99,8 @@ template <class Pupil> class GeometricAperture final : public Aperture {
         }
     }
 
+    PupilRaster raster(int64_t n) const override { return wfpsf::raster(parts_, n, n); }
+
   private:
     // Four times the largest difference of |A|^2 from a finer quadrature that is summed plainly.
     double check(const Plane<Complex> &value, const PupilNodes &finer, const Wavefront &wavefront,
@@ -112,23 +115,25 @@ template <class Pupil> class GeometricAperture final : public Aperture {
     }
 
     Pupil pupil_;
+    std::vector<LitPart> parts_;
     double fit_error_;
 };
 
 } // namespace
 
 std::unique_ptr<const Aperture> make_aperture(const SegmentedPupil &pupil) {
-    return std::make_unique<GeometricAperture<SegmentedPupil>>(pupil, 2 * pupil.outer.radius,
+    return std::make_unique<GeometricAperture<SegmentedPupil>>(pupil, lit_parts(pupil), 2 * pupil.outer.radius,
                                                                pupil.fit_error);
 }
 
 std::unique_ptr<const Aperture> make_aperture(const RomanPupil &pupil) {
-    return std::make_unique<GeometricAperture<std::vector<Cell>>>(lit_cells(lit_region(pupil)),
-                                                                  extent(pupil), pupil.fit_error);
+    const LitRegion region = lit_region(pupil);
+    return std::make_unique<GeometricAperture<std::vector<Cell>>>(
+        lit_cells(region), lit_parts(region), extent(pupil), pupil.fit_error);
 }
 
 std::unique_ptr<const Aperture> make_aperture(const AnnularPupil &pupil) {
-    return std::make_unique<GeometricAperture<AnnularPupil>>(pupil, 2 * pupil.outer_radius, 0.0);
+    return std::make_unique<GeometricAperture<AnnularPupil>>(pupil, lit_parts(pupil), 2 * pupil.outer_radius, 0.0);
 }
 
 } // namespace wfpsf

@@ -6,10 +6,12 @@
 #include "image/view.hpp"
 #include "numerics/bandlimited.hpp"
 #include "optics/aperture.hpp"
+#include "optics/component.hpp"
 #include "optics/wavefront.hpp"
 
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace wfpsf {
 
@@ -48,6 +50,9 @@ class Psf {
     void add(std::span<const Star> stars, int64_t oversampling, View<T> image, int threads) const;
 
     const PsfSettings &settings() const { return settings_; }
+    std::vector<Component> components() const {
+        return {{aperture_, wavefront_, settings_.wavelength, 1}};
+    }
     double lit_area() const { return aperture_->area(); } // m^2
     int64_t nodes() const { return field_.nodes; }
     int64_t grid_size() const { return field_.value.nx(); }

@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 namespace wfpsf {
@@ -169,17 +170,17 @@ bool alike(const Spans &a, const Spans &b) {
 // Positions count from the corner of the first pixel: pixel i is i..i+1.
 class Canvas {
   public:
-    Canvas(int64_t nx, int64_t ny) : area_(nx, ny), width_(nx, ny) {}
+    Canvas(int64_t nx, int64_t ny) : sums_(nx, ny) {}
 
     void add(const LitPart &part) {
         // However many pixels there are, nothing wider than a step is overlooked.
         constexpr int64_t least_steps = 8192;
-        const int64_t per_pixel = std::max<int64_t>(2, least_steps / area_.nx());
+        const int64_t per_pixel = std::max<int64_t>(2, least_steps / sums_.nx());
         const auto x_at = [&](int64_t step) {
             return static_cast<double>(step) / static_cast<double>(per_pixel);
         };
         Spans before = lit_spans(part, 0);
-        for (int64_t step = 0; step < area_.nx() * per_pixel; ++step) {
+        for (int64_t step = 0; step < sums_.nx() * per_pixel; ++step) {
             const double x0 = x_at(step), x1 = x_at(step + 1);
             Spans after = lit_spans(part, x1);
             add_step(part, step / per_pixel, x0, before, x1, after);
@@ -187,15 +188,24 @@ class Canvas {
         }
     }
 
-    Plane<double> coverage() {
-        for (int64_t x = 0; x < area_.nx(); ++x) {
-            double below = 0; // of the curves above
-            for (int64_t y = area_.ny(); y-- > 0;) {
-                area_(x, y) = std::clamp(area_(x, y) + below, 0.0, 1.0);
-                below += width_(x, y);
+    PupilRaster finish() {
+        const int64_t nx = sums_.nx(), ny = sums_.ny();
+        PupilRaster out{Plane<double>(nx, ny), Plane<double>(nx, ny), Plane<double>(nx, ny)};
+        for (int64_t x = 0; x < nx; ++x) {
+            double width = 0, width_x = 0; // of the curves above
+            for (int64_t y = ny; y-- > 0;) {
+                const Sums &s = sums_(x, y);
+                const double lit = std::clamp(s.area + width, 0.0, 1.0);
+                out.lit(x, y) = lit;
+                if (lit > 0) {
+                    out.centroid_x(x, y) = std::clamp((s.x + width_x) / lit - 0.5, -0.5, 0.5);
+                    out.centroid_y(x, y) = std::clamp((s.y + width / 2) / lit - 0.5, -0.5, 0.5);
+                }
+                width += s.width;
+                width_x += s.width_x;
             }
         }
-        return std::move(area_);
+        return out;
     }
 
   private:
@@ -222,24 +232,36 @@ class Canvas {
         const auto [low, high] = curve.range(x0, x1);
         borders_ = {x0, x1};
         for (double level = std::max(0.0, std::ceil(low));
-             level <= std::min(high, static_cast<double>(area_.ny())); ++level)
+             level <= std::min(high, static_cast<double>(sums_.ny())); ++level)
             for (const double x : curve.x_at(level))
                 if (x > x0 && x < x1)
                     borders_.push_back(x);
         std::ranges::sort(borders_);
         for (size_t i = 0; i + 1 < borders_.size(); ++i) {
             const double begin = borders_[i], end = borders_[i + 1];
-            const double y = std::floor(curve.y((begin + end) / 2));
-            const auto row =
-                static_cast<int64_t>(std::clamp(y, 0.0, static_cast<double>(area_.ny() - 1)));
-            const double below = curve.antiderivative(end) - curve.antiderivative(begin);
-            area_(column, row) += sign * (below - static_cast<double>(row) * (end - begin));
-            width_(column, row) += sign * (end - begin);
+            const double middle = (begin + end) / 2, half = (end - begin) / 2;
+            const auto row = static_cast<int64_t>(std::clamp(
+                std::floor(curve.y(middle)), 0.0, static_cast<double>(sums_.ny() - 1)));
+            const auto floor = static_cast<double>(row), left = static_cast<double>(column);
+            Sums &sums = sums_(column, row);
+            sums.area += sign * (curve.antiderivative(end) - curve.antiderivative(begin) -
+                                 2 * half * floor);
+            sums.width += sign * 2 * half;
+            sums.width_x += sign * 2 * half * (middle - left);
+            for (const double t : {-std::numbers::inv_sqrt3, std::numbers::inv_sqrt3}) {
+                const double x = middle + half * t, height = curve.y(x) - floor;
+                sums.x += sign * half * height * (x - left);
+                sums.y += sign * half * height * height / 2;
+            }
         }
     }
 
-    Plane<double> area_;  // below the curves, in the pixels that they cross
-    Plane<double> width_; // of those curves, for the pixels below
+    // Over the points below the curves that cross a pixel, from its corner: area and first moments,
+    // these by two Gauss points. And of the curves' widths alone, for the pixels below.
+    struct Sums {
+        double area = 0, x = 0, y = 0, width = 0, width_x = 0;
+    };
+    Plane<Sums> sums_;
     std::vector<double> borders_;
 };
 
@@ -381,7 +403,11 @@ PupilRaster raster(const std::vector<LitPart> &parts, int64_t nx, int64_t ny) {
     Canvas canvas(nx, ny);
     for (const LitPart &part : parts)
         canvas.add(moved(part, zoom, axis));
-    return {canvas.coverage(), 1 / zoom, axis.x - 0.5, axis.y - 0.5};
+    PupilRaster out = canvas.finish();
+    out.scale = 1 / zoom;
+    out.axis_x = axis.x - 0.5;
+    out.axis_y = axis.y - 0.5;
+    return out;
 }
 
 } // namespace wfpsf

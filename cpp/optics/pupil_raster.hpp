@@ -30,9 +30,12 @@ std::vector<LitPart> lit_parts(const LitRegion &region);
 // Square pixels of `scale` metres; pixel position (axis_x, axis_y) is the optical axis.
 struct PupilRaster {
     Plane<double> lit; // 0..1
-    double scale, axis_x, axis_y;
-    // The pixels are the pupil itself, each with the phase of its centre; not a drawing of it.
-    bool exact = false;
+    // Of each pixel's lit part, pixels from the pixel's centre. Empty where the pixels are the pupil
+    // itself, each with the phase of its centre, and no drawing of it.
+    Plane<double> centroid_x = {}, centroid_y = {};
+    double scale = 0, axis_x = 0, axis_y = 0;
+
+    bool is_pupil() const { return centroid_x.nx() == 0; }
 };
 
 // The pupil fills the shorter side of nx by ny pixels and stands in their middle. The coverage of a

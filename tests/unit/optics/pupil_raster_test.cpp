@@ -101,8 +101,9 @@ TEST(PupilRaster, BothEnginePathsAgree) {
                 const double in_64ths = static_cast<double>(n) / 64;
                 EXPECT_LT(worst / peak, (waves == 0 ? 4e-4 : 1.6e-3) / (in_64ths * in_64ths))
                     << c.name << ' ' << waves << ' ' << n;
-                if (n > 64)
+                if (n > 64) {
                     EXPECT_NEAR(before / worst, 4, 0.3) << c.name << ' ' << waves << ' ' << n;
+                }
                 before = worst;
             }
         }
