@@ -5,9 +5,11 @@
 #include "detector/ipc_kernel.hpp"
 #include "image/image.hpp"
 #include "instrument/instrument.hpp"
+#include "optics/otf.hpp"
 #include "optics/psf.hpp"
 
 #include <array>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -24,6 +26,10 @@ struct wfpsf_instrument {
 struct wfpsf_psf {
     wfpsf::Psf psf;
     double wavelength_nm, pixel_scale_arcsec; // as given, without a rounding
+};
+
+struct wfpsf_otf {
+    wfpsf::Otf otf;
 };
 
 struct wfpsf_ipc_kernel {
@@ -44,6 +50,10 @@ bool flag(const wfpsf_options *options, int32_t key);
 
 // The extra Zernike coefficients; none if options is NULL.
 const std::vector<double> &extra_zernikes(const wfpsf_options *options);
+
+// The pupil that an SCA sees through a band, or the bare annulus: STRUTS.
+std::unique_ptr<const Aperture> make_aperture_of(const Instrument &instrument, int32_t sca,
+                                                 const char *band, const wfpsf_options *options);
 
 PixelType pixel_type_of(int32_t pixel_type);
 

@@ -11,9 +11,9 @@ namespace wfpsf {
 // is not 2, because long powers of two collide in the cache.
 int64_t good_fft_length(int64_t n);
 
-// sum_l in[l] exp(+2 pi i k l / n), in place, unnormalised; in two dimensions over nx by ny numbers,
-// x fastest. Plans are made under one lock for the whole process, by estimate, so that equal calls
-// give equal bits; running them needs no lock.
+// sum_l in[l] exp(+2 pi i k l / n), in place, unnormalised; in two dimensions over nx by ny
+// numbers, x fastest. Plans are made under one lock for the whole process, by estimate, so that
+// equal calls give equal bits; running them needs no lock.
 class BackwardFft {
   public:
     explicit BackwardFft(int64_t n) : BackwardFft(n, 1) {}

@@ -41,8 +41,8 @@ class Aperture {
     virtual Amplitude amplitude(const Wavefront &wavefront, double wavelength,
                                 const FocalGrid &grid, double eps) const = 0;
 
-    // The pupil on n by n square pixels, or on its own.
-    virtual PupilRaster raster(int64_t n) const = 0;
+    // The pupil drawn on nx by ny square pixels, or a mask's own pixels, however many.
+    virtual PupilRaster raster(int64_t nx, int64_t ny) const = 0;
 
     double area() const { return area_; }         // lit, m^2
     double diameter() const { return diameter_; } // the larger extent along x or y, m

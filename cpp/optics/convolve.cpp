@@ -14,7 +14,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr int64_t longest_side = 16384; // of the PSF's stamp, samples
+constexpr int64_t longest_side = 8192; // of the PSF's stamp, samples
 
 // The samples, divided by the largest of them.
 template <class S> Plane<double> scaled(View<const S> samples, double &largest) {
@@ -45,8 +45,8 @@ void sum_directly(const Plane<double> &source, const Plane<double> &stamp, int64
             double sum = 0;
             for (int64_t b = 0; b < source.ny(); ++b)
                 for (int64_t a = 0; a < source.nx(); ++a)
-                    sum += source(a, b) * stamp(step * i + source.nx() - 1 - a,
-                                                step * j + source.ny() - 1 - b);
+                    sum += source(a, b) *
+                           stamp(step * i + source.nx() - 1 - a, step * j + source.ny() - 1 - b);
             store(i, j, sum);
         }
 }
@@ -130,8 +130,8 @@ void convolve(const Psf &psf, const Source<S> &source, int64_t oversampling, Vie
         out(x, y) = static_cast<T>(source.flux * largest * sum);
     };
     const int64_t nx = good_fft_length(stamp.nx()), ny = good_fft_length(stamp.ny());
-    const double terms = static_cast<double>(out.nx * out.ny) *
-                         static_cast<double>(samples.nx() * samples.ny());
+    const double terms =
+        static_cast<double>(out.nx * out.ny) * static_cast<double>(samples.nx() * samples.ny());
     const double points = static_cast<double>(nx) * static_cast<double>(ny);
     if (terms < 5 * points * std::log2(points + 1))
         sum_directly(samples, stamp, step, out.nx, out.ny, store);

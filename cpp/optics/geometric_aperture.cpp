@@ -99,7 +99,9 @@ template <class Pupil> class GeometricAperture final : public Aperture {
         }
     }
 
-    PupilRaster raster(int64_t n) const override { return wfpsf::raster(parts_, n, n); }
+    PupilRaster raster(int64_t nx, int64_t ny) const override {
+        return wfpsf::raster(parts_, nx, ny);
+    }
 
   private:
     // Four times the largest difference of |A|^2 from a finer quadrature that is summed plainly.
@@ -122,8 +124,8 @@ template <class Pupil> class GeometricAperture final : public Aperture {
 } // namespace
 
 std::unique_ptr<const Aperture> make_aperture(const SegmentedPupil &pupil) {
-    return std::make_unique<GeometricAperture<SegmentedPupil>>(pupil, lit_parts(pupil), 2 * pupil.outer.radius,
-                                                               pupil.fit_error);
+    return std::make_unique<GeometricAperture<SegmentedPupil>>(
+        pupil, lit_parts(pupil), 2 * pupil.outer.radius, pupil.fit_error);
 }
 
 std::unique_ptr<const Aperture> make_aperture(const RomanPupil &pupil) {
@@ -133,7 +135,8 @@ std::unique_ptr<const Aperture> make_aperture(const RomanPupil &pupil) {
 }
 
 std::unique_ptr<const Aperture> make_aperture(const AnnularPupil &pupil) {
-    return std::make_unique<GeometricAperture<AnnularPupil>>(pupil, lit_parts(pupil), 2 * pupil.outer_radius, 0.0);
+    return std::make_unique<GeometricAperture<AnnularPupil>>(pupil, lit_parts(pupil),
+                                                             2 * pupil.outer_radius, 0.0);
 }
 
 } // namespace wfpsf

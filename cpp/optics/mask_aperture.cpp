@@ -107,7 +107,7 @@ class MaskAperture final : public Aperture {
         return {to_plane(sum), lit_.nx() * lit_.ny(), rounding, turn * turn / 12};
     }
 
-    PupilRaster raster(int64_t) const override {
+    PupilRaster raster(int64_t, int64_t) const override {
         return {.lit = lit_,
                 .scale = scale_,
                 .axis_x = -u_.front() / scale_,

@@ -18,14 +18,14 @@ constexpr int64_t first_pixels = 128;
 constexpr int64_t margin = 2; // of zeros around a lattice, and of conjugates below it
 using Complex = std::complex<double>;
 
-// The mean of exp(2 pi i W) over a pixel's lit part: by four Gauss points where all of it is lit, by
-// the centroid at its edges. A mask's pixel has the phase of its centre.
+// The mean of exp(2 pi i W) over a pixel's lit part: by four Gauss points where all of it is lit,
+// by the centroid at its edges. A mask's pixel has the phase of its centre.
 Complex mean_phase(const Wavefront &wavefront, const PupilRaster &raster, int64_t x, int64_t y) {
     const double u = static_cast<double>(x) - raster.axis_x;
     const double v = static_cast<double>(y) - raster.axis_y;
     const auto phase = [&](double dx, double dy) {
-        return std::polar(1.0, 2 * pi *
-                                   wavefront((u + dx) * raster.scale, (v + dy) * raster.scale));
+        return std::polar(1.0,
+                          2 * pi * wavefront((u + dx) * raster.scale, (v + dy) * raster.scale));
     };
     if (raster.is_pupil())
         return phase(0, 0);
@@ -35,9 +35,14 @@ Complex mean_phase(const Wavefront &wavefront, const PupilRaster &raster, int64_
     return (phase(-d, -d) + phase(d, -d) + phase(-d, d) + phase(d, d)) / 4.0;
 }
 
+double sinc(double x) {
+    return x == 0 ? 1 : std::sin(pi * x) / (pi * x);
+}
+
 } // namespace
 
-Otf::Otf(std::span<const Component> components, bool mirrored, double eps) : mirrored_(mirrored) {
+Otf::Otf(std::span<const Component> components, double pixel_scale, bool mirrored, double eps)
+    : mirrored_(mirrored), pixel_scale_(pixel_scale) {
     // All lattices together take as much memory as the largest one alone.
     const auto most = 2 * static_cast<int64_t>(static_cast<double>(most_pixels / 2) /
                                                std::sqrt(static_cast<double>(components.size())));
@@ -48,7 +53,8 @@ Otf::Otf(std::span<const Component> components, bool mirrored, double eps) : mir
             break;
         // The error falls as the square of the pixel.
         const double factor = std::clamp(std::sqrt(1.2 * error_ / eps), 1.1, 16.0);
-        n = std::min(most, 2 * static_cast<int64_t>(std::ceil(static_cast<double>(n) * factor / 2)));
+        n = std::min(most,
+                     2 * static_cast<int64_t>(std::ceil(static_cast<double>(n) * factor / 2)));
     }
 }
 
@@ -71,7 +77,7 @@ void Otf::make(std::span<const Component> components, int64_t n) {
 }
 
 Otf::Lattice Otf::autocorrelation(const Component &component, int64_t n) {
-    const PupilRaster raster = component.aperture->raster(n);
+    const PupilRaster raster = component.aperture->raster(n, n);
     const int64_t nx = raster.lit.nx(), ny = raster.lit.ny();
     const int64_t width = std::max(nx, ny);
     const int64_t size = good_fft_length(2 * width + 1);
@@ -140,12 +146,16 @@ Complex Otf::Lattice::at(double x, double y) const {
     return sum;
 }
 
-Complex Otf::operator()(double kx, double ky) const {
+Complex Otf::diffraction(double kx, double ky) const {
     Complex sum = 0;
     for (const Lattice &lattice : lattices_)
         sum += lattice.weight *
                lattice.at(kx * lattice.pixels_per_k, (mirrored_ ? -ky : ky) * lattice.pixels_per_k);
     return sum;
+}
+
+Complex Otf::effective(double kx, double ky) const {
+    return diffraction(kx, ky) * sinc(kx * pixel_scale_) * sinc(ky * pixel_scale_);
 }
 
 // From the difference to pixels of twice the size, of which an error that falls as the square of
@@ -163,8 +173,8 @@ void Otf::estimate(std::span<const Component> components, int64_t n) {
             // Irregular against both lattices.
             const double kx = cutoff_ * std::remainder((i + 0.5) / steps + j * 0.618034, 2.0);
             const double ky = (mirrored_ ? -1 : 1) * cutoff_ * (j + 0.29) / steps;
-            const Complex fine = (*this)(kx, ky);
-            const double off = std::abs(fine - coarse(kx, mirrored_ ? -ky : ky));
+            const Complex fine = diffraction(kx, ky);
+            const double off = std::abs(fine - coarse.diffraction(kx, mirrored_ ? -ky : ky));
             difference += off;
             whole += std::abs(fine);
             largest = std::max(largest, off);

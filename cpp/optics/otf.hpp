@@ -18,8 +18,8 @@ namespace wfpsf {
 //     OTF(k) = integral of I(theta) exp(-2 pi i k . theta) d2theta / the same at k = 0
 //            = integral of f(u) conj f(u - lambda k) d2u / the same at k = 0,
 //
-// f the pupil function: transmission times exp(2 pi i W). It is averaged on square pixels. Shifts by
-// whole pixels are summed by FFT; in between, the autocorrelation of square pixels is bilinear.
+// f the pupil function: transmission times exp(2 pi i W). It is averaged on square pixels. Shifts
+// by whole pixels are summed by FFT; in between, the autocorrelation of square pixels is bilinear.
 class Otf {
   public:
     static constexpr int64_t most_pixels = 2048; // across a pupil given as geometry
@@ -27,15 +27,19 @@ class Otf {
     // `eps` bounds the error of a PSF made of the OTF, in units of its peak: the integral of the
     // OTF's error over that of the OTF. Single values have a larger error where the OTF has a kink:
     // near k = 0, and for shifts along straight edges.
-    Otf(std::span<const Component> components, bool mirrored, double eps);
+    // `pixel_scale` is the native pixel's side, radians; mirrored as in PsfSettings.
+    Otf(std::span<const Component> components, double pixel_scale, bool mirrored, double eps);
 
     // By diffraction alone; k in cycles per radian. Zero beyond the cut-off.
-    std::complex<double> operator()(double kx, double ky) const;
+    std::complex<double> diffraction(double kx, double ky) const;
 
-    double cutoff() const { return cutoff_; } // no |k| above it holds anything, cycles per radian
-    double error_estimate() const { return error_; }  // as eps
+    // The same times what else acts on the image before it is sampled: the native pixel.
+    std::complex<double> effective(double kx, double ky) const;
+
+    double cutoff() const { return cutoff_; }           // of |kx| and |ky|, cycles per radian
+    double error_estimate() const { return error_; }    // as eps
     double value_error() const { return value_error_; } // estimate of the largest one
-    int64_t pixels() const { return pixels_; }        // across the pupil
+    int64_t pixels() const { return pixels_; }          // across the pupil
 
   private:
     // The autocorrelation for shifts of whole pixels along x and y; those with y < 0 are conjugate.
@@ -55,6 +59,7 @@ class Otf {
 
     std::vector<Lattice> lattices_;
     bool mirrored_ = false, exact_ = true;
+    double pixel_scale_ = 0;
     double cutoff_ = 0, error_ = 0, value_error_ = 0;
     int64_t pixels_ = 0;
 };

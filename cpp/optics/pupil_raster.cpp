@@ -240,12 +240,12 @@ class Canvas {
         for (size_t i = 0; i + 1 < borders_.size(); ++i) {
             const double begin = borders_[i], end = borders_[i + 1];
             const double middle = (begin + end) / 2, half = (end - begin) / 2;
-            const auto row = static_cast<int64_t>(std::clamp(
-                std::floor(curve.y(middle)), 0.0, static_cast<double>(sums_.ny() - 1)));
+            const auto row = static_cast<int64_t>(
+                std::clamp(std::floor(curve.y(middle)), 0.0, static_cast<double>(sums_.ny() - 1)));
             const auto floor = static_cast<double>(row), left = static_cast<double>(column);
             Sums &sums = sums_(column, row);
-            sums.area += sign * (curve.antiderivative(end) - curve.antiderivative(begin) -
-                                 2 * half * floor);
+            sums.area +=
+                sign * (curve.antiderivative(end) - curve.antiderivative(begin) - 2 * half * floor);
             sums.width += sign * 2 * half;
             sums.width_x += sign * 2 * half * (middle - left);
             for (const double t : {-std::numbers::inv_sqrt3, std::numbers::inv_sqrt3}) {

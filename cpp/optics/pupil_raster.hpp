@@ -30,8 +30,8 @@ std::vector<LitPart> lit_parts(const LitRegion &region);
 // Square pixels of `scale` metres; pixel position (axis_x, axis_y) is the optical axis.
 struct PupilRaster {
     Plane<double> lit; // 0..1
-    // Of each pixel's lit part, pixels from the pixel's centre. Empty where the pixels are the pupil
-    // itself, each with the phase of its centre, and no drawing of it.
+    // Of each pixel's lit part, pixels from the pixel's centre. Empty where the pixels are the
+    // pupil itself, each with the phase of its centre, and no drawing of it.
     Plane<double> centroid_x = {}, centroid_y = {};
     double scale = 0, axis_x = 0, axis_y = 0;
 

@@ -25,10 +25,9 @@ inline Regions sharp_regions(const SegmentedPupil &pupil) {
         const HalfPlane &a = segment.clockwise_edge, &b = segment.counterclockwise_edge;
         const double norm = std::hypot(a.nx + b.nx, a.ny + b.ny);
         const double nx = (a.nx + b.nx) / norm, ny = (a.ny + b.ny) / norm;
-        regions.push_back(
-            {{disc(pupil.outer), a, b,
-              HalfPlane{nx, ny, nx * pupil.obscuration.x + ny * pupil.obscuration.y}},
-             {{disc(pupil.obscuration)}}});
+        regions.push_back({{disc(pupil.outer), a, b,
+                            HalfPlane{nx, ny, nx * pupil.obscuration.x + ny * pupil.obscuration.y}},
+                           {{disc(pupil.obscuration)}}});
     }
     return regions;
 }
@@ -62,8 +61,8 @@ inline std::complex<double> autocorrelation(const Regions &regions, const Wavefr
     for (const LitRegion &a : regions)
         for (const LitRegion &b : regions) {
             const std::vector<Cell> cells = lit_cells(overlap(a, b, x, y));
-            const PupilNodes nodes = pupil_nodes(
-                cells, 2 * std::numbers::pi * 2 * wavefront.slope_bound() + 1, 1e-11);
+            const PupilNodes nodes =
+                pupil_nodes(cells, 2 * std::numbers::pi * 2 * wavefront.slope_bound() + 1, 1e-11);
             for (size_t i = 0; i < nodes.size(); ++i)
                 sum += nodes.weight[i] *
                        std::polar(1.0, 2 * std::numbers::pi *

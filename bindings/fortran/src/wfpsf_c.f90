@@ -93,6 +93,17 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_psf_radius = 90
     integer(c_int32_t), parameter :: wfpsf_psf_lit_area_m2 = 100
 
+    ! otf.h
+    integer(c_int32_t), parameter :: wfpsf_otf_error_estimate = 10
+    integer(c_int32_t), parameter :: wfpsf_otf_value_error = 20
+    integer(c_int32_t), parameter :: wfpsf_otf_cutoff = 30
+    integer(c_int32_t), parameter :: wfpsf_otf_pixels = 40
+    integer(c_int32_t), parameter :: wfpsf_response_diffraction = 1
+    integer(c_int32_t), parameter :: wfpsf_response_effective = 2
+    integer(c_int32_t), parameter :: wfpsf_order_centred = 1
+    integer(c_int32_t), parameter :: wfpsf_order_wrapped = 2
+    integer(c_int32_t), parameter :: wfpsf_order_half = 3
+
     ! ipc.h
     integer(c_int32_t), parameter :: wfpsf_edge_zero = 0
     integer(c_int32_t), parameter :: wfpsf_edge_replicate = 1
@@ -464,6 +475,21 @@ module wfpsf_c
             integer(c_int32_t) :: outcome
         end function wfpsf_instrument_zernikes
 
+        function wfpsf_instrument_pupil(instrument, band, sca, options, out, scale_m, axis_x, &
+            axis_y) bind(c, name="wfpsf_instrument_pupil") result(outcome)
+            import :: c_char, c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            character(kind=c_char), intent(in), optional :: band(*)
+            integer(c_int32_t), value :: sca
+            type(c_ptr), value :: options
+            type(c_ptr), value :: out
+            real(c_double), intent(inout), optional :: scale_m
+            real(c_double), intent(inout), optional :: axis_x
+            real(c_double), intent(inout), optional :: axis_y
+            integer(c_int32_t) :: outcome
+        end function wfpsf_instrument_pupil
+
         ! psf.h
         function wfpsf_psf_create(instrument, sca, wavelength_nm, options, out) &
             bind(c, name="wfpsf_psf_create") result(outcome)
@@ -540,6 +566,20 @@ module wfpsf_c
             integer(c_int32_t) :: outcome
         end function wfpsf_psf_add_stars
 
+        function wfpsf_psf_convolve(psf, galaxy, x, y, flux, options, image) &
+            bind(c, name="wfpsf_psf_convolve") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: psf
+            type(c_ptr), value :: galaxy
+            real(c_double), value :: x
+            real(c_double), value :: y
+            real(c_double), value :: flux
+            type(c_ptr), value :: options
+            type(c_ptr), value :: image
+            integer(c_int32_t) :: outcome
+        end function wfpsf_psf_convolve
+
         function wfpsf_psf_get(psf, key, value) bind(c, name="wfpsf_psf_get") result(outcome)
             import :: c_double, c_int32_t, c_ptr
             implicit none
@@ -548,6 +588,59 @@ module wfpsf_c
             real(c_double), intent(inout), optional :: value
             integer(c_int32_t) :: outcome
         end function wfpsf_psf_get
+
+        ! otf.h
+        function wfpsf_otf_create(psf, options, out) &
+            bind(c, name="wfpsf_otf_create") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: psf
+            type(c_ptr), value :: options
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_otf_create
+
+        subroutine wfpsf_otf_destroy(otf) bind(c, name="wfpsf_otf_destroy")
+            import :: c_ptr
+            implicit none
+            type(c_ptr), value :: otf
+        end subroutine wfpsf_otf_destroy
+
+        function wfpsf_otf_values(otf, response, count, kx, ky, re, im) &
+            bind(c, name="wfpsf_otf_values") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: otf
+            integer(c_int32_t), value :: response
+            integer(c_int64_t), value :: count
+            real(c_double), intent(in), optional :: kx(*)
+            real(c_double), intent(in), optional :: ky(*)
+            real(c_double), intent(inout), optional :: re(*)
+            real(c_double), intent(inout), optional :: im(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_otf_values
+
+        function wfpsf_otf_grid(otf, response, order, step, re, im) &
+            bind(c, name="wfpsf_otf_grid") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: otf
+            integer(c_int32_t), value :: response
+            integer(c_int32_t), value :: order
+            real(c_double), value :: step
+            type(c_ptr), value :: re
+            type(c_ptr), value :: im
+            integer(c_int32_t) :: outcome
+        end function wfpsf_otf_grid
+
+        function wfpsf_otf_get(otf, key, value) bind(c, name="wfpsf_otf_get") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: otf
+            integer(c_int32_t), value :: key
+            real(c_double), intent(inout), optional :: value
+            integer(c_int32_t) :: outcome
+        end function wfpsf_otf_get
 
         ! ipc.h
         function wfpsf_ipc_kernel_create(alpha, alpha_prime, alpha_plus, options, out) &

@@ -287,6 +287,13 @@ function wfpsf_instrument_zernikes(instrument, sca, capacity, coefficients, coun
         instrument, sca, capacity, coefficients, count)
 end
 
+const wfpsf_instrument_pupil_pointer = Ref(C_NULL)
+function wfpsf_instrument_pupil(instrument, band, sca, options, out, scale_m, axis_x, axis_y)
+    return ccall(wfpsf_instrument_pupil_pointer[], Int32, (Ptr{Cvoid}, Cstring, Int32, Ptr{Cvoid},
+        Ptr{Cvoid}, Ptr{Float64}, Ptr{Float64}, Ptr{Float64}),
+        instrument, band, sca, options, out, scale_m, axis_x, axis_y)
+end
+
 # psf.h
 const WFPSF_PSF_WAVELENGTH_NM = Int32(10)
 const WFPSF_PSF_PIXEL_SCALE_ARCSEC = Int32(20)
@@ -341,10 +348,60 @@ function wfpsf_psf_add_stars(psf, count, x, y, flux, options, image)
         psf, count, x, y, flux, options, image)
 end
 
+const wfpsf_psf_convolve_pointer = Ref(C_NULL)
+function wfpsf_psf_convolve(psf, galaxy, x, y, flux, options, image)
+    return ccall(wfpsf_psf_convolve_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Float64, Float64,
+        Float64, Ptr{Cvoid}, Ptr{Cvoid}),
+        psf, galaxy, x, y, flux, options, image)
+end
+
 const wfpsf_psf_get_pointer = Ref(C_NULL)
 function wfpsf_psf_get(psf, key, value)
     return ccall(wfpsf_psf_get_pointer[], Int32, (Ptr{Cvoid}, Int32, Ptr{Float64}),
         psf, key, value)
+end
+
+# otf.h
+const WFPSF_OTF_ERROR_ESTIMATE = Int32(10)
+const WFPSF_OTF_VALUE_ERROR = Int32(20)
+const WFPSF_OTF_CUTOFF = Int32(30)
+const WFPSF_OTF_PIXELS = Int32(40)
+const WFPSF_RESPONSE_DIFFRACTION = Int32(1)
+const WFPSF_RESPONSE_EFFECTIVE = Int32(2)
+const WFPSF_ORDER_CENTRED = Int32(1)
+const WFPSF_ORDER_WRAPPED = Int32(2)
+const WFPSF_ORDER_HALF = Int32(3)
+
+const wfpsf_otf_create_pointer = Ref(C_NULL)
+function wfpsf_otf_create(psf, options, out)
+    return ccall(wfpsf_otf_create_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        psf, options, out)
+end
+
+const wfpsf_otf_destroy_pointer = Ref(C_NULL)
+function wfpsf_otf_destroy(otf)
+    return ccall(wfpsf_otf_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
+        otf)
+end
+
+const wfpsf_otf_values_pointer = Ref(C_NULL)
+function wfpsf_otf_values(otf, response, count, kx, ky, re, im)
+    return ccall(wfpsf_otf_values_pointer[], Int32, (Ptr{Cvoid}, Int32, Int64, Ptr{Float64},
+        Ptr{Float64}, Ptr{Float64}, Ptr{Float64}),
+        otf, response, count, kx, ky, re, im)
+end
+
+const wfpsf_otf_grid_pointer = Ref(C_NULL)
+function wfpsf_otf_grid(otf, response, order, step, re, im)
+    return ccall(wfpsf_otf_grid_pointer[], Int32, (Ptr{Cvoid}, Int32, Int32, Float64, Ptr{Cvoid},
+        Ptr{Cvoid}),
+        otf, response, order, step, re, im)
+end
+
+const wfpsf_otf_get_pointer = Ref(C_NULL)
+function wfpsf_otf_get(otf, key, value)
+    return ccall(wfpsf_otf_get_pointer[], Int32, (Ptr{Cvoid}, Int32, Ptr{Float64}),
+        otf, key, value)
 end
 
 # ipc.h
@@ -523,13 +580,20 @@ const pointers = [
     :wfpsf_instrument_band => wfpsf_instrument_band_pointer,
     :wfpsf_instrument_throughput => wfpsf_instrument_throughput_pointer,
     :wfpsf_instrument_zernikes => wfpsf_instrument_zernikes_pointer,
+    :wfpsf_instrument_pupil => wfpsf_instrument_pupil_pointer,
     :wfpsf_psf_create => wfpsf_psf_create_pointer,
     :wfpsf_psf_create_in_band => wfpsf_psf_create_in_band_pointer,
     :wfpsf_psf_create_from_mask => wfpsf_psf_create_from_mask_pointer,
     :wfpsf_psf_destroy => wfpsf_psf_destroy_pointer,
     :wfpsf_psf_draw => wfpsf_psf_draw_pointer,
     :wfpsf_psf_add_stars => wfpsf_psf_add_stars_pointer,
+    :wfpsf_psf_convolve => wfpsf_psf_convolve_pointer,
     :wfpsf_psf_get => wfpsf_psf_get_pointer,
+    :wfpsf_otf_create => wfpsf_otf_create_pointer,
+    :wfpsf_otf_destroy => wfpsf_otf_destroy_pointer,
+    :wfpsf_otf_values => wfpsf_otf_values_pointer,
+    :wfpsf_otf_grid => wfpsf_otf_grid_pointer,
+    :wfpsf_otf_get => wfpsf_otf_get_pointer,
     :wfpsf_ipc_kernel_create => wfpsf_ipc_kernel_create_pointer,
     :wfpsf_ipc_kernel_create_taps => wfpsf_ipc_kernel_create_taps_pointer,
     :wfpsf_ipc_kernel_create_wfc3 => wfpsf_ipc_kernel_create_wfc3_pointer,

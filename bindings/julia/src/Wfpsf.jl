@@ -26,10 +26,11 @@ without it the system's loader looks for `libwfpsf`.
 module Wfpsf
 
 export WfpsfError, options,
-    Instrument, constant, constants, band, bands, throughput, zernikes,
+    Instrument, constant, constants, band, bands, throughput, zernikes, pupil,
     Image, record, set_record!, read_fits, write_fits,
     interleave, interleave!, deinterleave, deinterleave!,
-    PSF, draw, draw!, add_stars!,
+    PSF, draw, draw!, add_stars!, convolve!,
+    OTF, otf_grid,
     IPCKernel, wfc3_kernel, correction, flipped, taps, apply_ipc, apply_ipc!,
     Moments, adaptive_moments, unweighted_moments,
     encircled_energy, ee_radius, fwhm
@@ -44,7 +45,9 @@ include("options.jl")
 include("instrument.jl")
 include("image.jl")
 include("interleave.jl")
+include("pupil.jl")
 include("psf.jl")
+include("otf.jl")
 include("ipc.jl")
 include("moments.jl")
 include("size.jl")

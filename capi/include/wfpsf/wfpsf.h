@@ -11,6 +11,7 @@
 #include <wfpsf/ipc.h>
 #include <wfpsf/moments.h>
 #include <wfpsf/options.h>
+#include <wfpsf/otf.h>
 #include <wfpsf/psf.h>
 #include <wfpsf/size.h>
 #include <wfpsf/status.h>

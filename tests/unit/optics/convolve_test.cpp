@@ -15,10 +15,9 @@ namespace wfpsf {
 namespace {
 
 const Psf &psf() {
-    static const Psf made(
-        make_aperture(Instrument::get("wfirst-afta-c5").annular_pupil()),
-        Wavefront(std::vector<double>{0, 0, 0, 0.1, 0.05, 0, 0.1, -0.03}, 1.18),
-        {1300e-9, 0.11 * std::numbers::pi / 180 / 3600, 1e-8, 24});
+    static const Psf made(make_aperture(Instrument::get("wfirst-afta-c5").annular_pupil()),
+                          Wavefront(std::vector<double>{0, 0, 0, 0.1, 0.05, 0, 0.1, -0.03}, 1.18),
+                          {1300e-9, 0.11 * std::numbers::pi / 180 / 3600, 1e-8, 24});
     return made;
 }
 
@@ -38,9 +37,10 @@ template <class S> Plane<double> stars(const Source<S> &source, int64_t m, int64
     const double step = static_cast<double>(m) / static_cast<double>(source.oversampling);
     for (int64_t b = 0; b < g.ny; ++b)
         for (int64_t a = 0; a < g.nx; ++a) {
-            psf().draw(source.x + step * (static_cast<double>(a) - static_cast<double>(g.nx - 1) / 2),
-                       source.y + step * (static_cast<double>(b) - static_cast<double>(g.ny - 1) / 2),
-                       source.flux * static_cast<double>(g(a, b)), m, star.view());
+            psf().draw(
+                source.x + step * (static_cast<double>(a) - static_cast<double>(g.nx - 1) / 2),
+                source.y + step * (static_cast<double>(b) - static_cast<double>(g.ny - 1) / 2),
+                source.flux * static_cast<double>(g(a, b)), m, star.view());
             for (int64_t i = 0; i < nx * ny; ++i)
                 sum(i % nx, i / nx) += star(i % nx, i / nx);
         }
