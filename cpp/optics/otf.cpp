@@ -100,7 +100,7 @@ Otf::Lattice Otf::autocorrelation(const Component &component, int64_t n) {
     const auto samples = static_cast<double>(size) * static_cast<double>(size);
     const double scale = 1 / (samples * (raster.is_pupil() ? squares : lit));
     const auto sum = [&](int64_t x, int64_t y) {
-        return scale * field((2 * size - x) % size, (2 * size - y) % size);
+        return scale * field(x > 0 ? size - x : -x, y > 0 ? size - y : -y);
     };
     // Averaging over pixels widens both factors: of a smooth autocorrelation f they leave
     // f + h^2/12 (its second derivatives), which is taken off again.

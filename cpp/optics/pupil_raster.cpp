@@ -167,20 +167,25 @@ bool alike(const Spans &a, const Spans &b) {
 
 // ------------------------------------------------------------------------------------------ pixels
 
-// Positions count from the corner of the first pixel: pixel i is i..i+1.
-class Canvas {
+// A few neighbouring columns, so that what is summed on the way stays in the cache. Positions count
+// from the corner of the image's first pixel: pixel i is i..i+1.
+class Strip {
   public:
-    Canvas(int64_t nx, int64_t ny) : sums_(nx, ny) {}
+    static constexpr int64_t columns = 8;
+
+    Strip(int64_t first, int64_t nx, int64_t ny)
+        : first_(first), count_(std::min(columns, nx - first)), image_nx_(nx), sums_(columns, ny) {}
 
     void add(const LitPart &part) {
         // However many pixels there are, nothing wider than a step is overlooked.
         constexpr int64_t least_steps = 8192;
-        const int64_t per_pixel = std::max<int64_t>(2, least_steps / sums_.nx());
+        const int64_t per_pixel = std::max<int64_t>(2, least_steps / image_nx_);
         const auto x_at = [&](int64_t step) {
             return static_cast<double>(step) / static_cast<double>(per_pixel);
         };
-        Spans before = lit_spans(part, 0);
-        for (int64_t step = 0; step < sums_.nx() * per_pixel; ++step) {
+        const int64_t begin = first_ * per_pixel, end = (first_ + count_) * per_pixel;
+        Spans before = lit_spans(part, x_at(begin));
+        for (int64_t step = begin; step < end; ++step) {
             const double x0 = x_at(step), x1 = x_at(step + 1);
             Spans after = lit_spans(part, x1);
             add_step(part, step / per_pixel, x0, before, x1, after);
@@ -188,24 +193,22 @@ class Canvas {
         }
     }
 
-    PupilRaster finish() {
-        const int64_t nx = sums_.nx(), ny = sums_.ny();
-        PupilRaster out{Plane<double>(nx, ny), Plane<double>(nx, ny), Plane<double>(nx, ny)};
-        for (int64_t x = 0; x < nx; ++x) {
-            double width = 0, width_x = 0; // of the curves above
-            for (int64_t y = ny; y-- > 0;) {
-                const Sums &s = sums_(x, y);
-                const double lit = std::clamp(s.area + width, 0.0, 1.0);
-                out.lit(x, y) = lit;
+    void store(PupilRaster &out) const {
+        std::array<double, columns> width{}, width_x{}; // of the curves above
+        for (int64_t y = sums_.ny(); y-- > 0;)
+            for (int64_t i = 0; i < count_; ++i) {
+                const Sums &s = sums_(i, y);
+                double &w = width[static_cast<size_t>(i)], &wx = width_x[static_cast<size_t>(i)];
+                const double lit = std::clamp(s.area + w, 0.0, 1.0);
+                out.lit(first_ + i, y) = lit;
                 if (lit > 0) {
-                    out.centroid_x(x, y) = std::clamp((s.x + width_x) / lit - 0.5, -0.5, 0.5);
-                    out.centroid_y(x, y) = std::clamp((s.y + width / 2) / lit - 0.5, -0.5, 0.5);
+                    out.centroid_x(first_ + i, y) = std::clamp((s.x + wx) / lit - 0.5, -0.5, 0.5);
+                    out.centroid_y(first_ + i, y) =
+                        std::clamp((s.y + w / 2) / lit - 0.5, -0.5, 0.5);
                 }
-                width += s.width;
-                width_x += s.width_x;
+                w += s.width;
+                wx += s.width_x;
             }
-        }
-        return out;
     }
 
   private:
@@ -243,7 +246,7 @@ class Canvas {
             const auto row = static_cast<int64_t>(
                 std::clamp(std::floor(curve.y(middle)), 0.0, static_cast<double>(sums_.ny() - 1)));
             const auto floor = static_cast<double>(row), left = static_cast<double>(column);
-            Sums &sums = sums_(column, row);
+            Sums &sums = sums_(column - first_, row);
             sums.area +=
                 sign * (curve.antiderivative(end) - curve.antiderivative(begin) - 2 * half * floor);
             sums.width += sign * 2 * half;
@@ -261,6 +264,7 @@ class Canvas {
     struct Sums {
         double area = 0, x = 0, y = 0, width = 0, width_x = 0;
     };
+    int64_t first_, count_, image_nx_;
     Plane<Sums> sums_;
     std::vector<double> borders_;
 };
@@ -400,10 +404,16 @@ PupilRaster raster(const std::vector<LitPart> &parts, int64_t nx, int64_t ny) {
     const double zoom = static_cast<double>(std::min(nx, ny)) / side;
     const Vector middle{static_cast<double>(nx) / 2, static_cast<double>(ny) / 2};
     const Vector axis = middle - zoom / 2 * (low + high);
-    Canvas canvas(nx, ny);
+    std::vector<LitPart> in_pixels;
     for (const LitPart &part : parts)
-        canvas.add(moved(part, zoom, axis));
-    PupilRaster out = canvas.finish();
+        in_pixels.push_back(moved(part, zoom, axis));
+    PupilRaster out{Plane<double>(nx, ny), Plane<double>(nx, ny), Plane<double>(nx, ny)};
+    for (int64_t first = 0; first < nx; first += Strip::columns) {
+        Strip strip(first, nx, ny);
+        for (const LitPart &part : in_pixels)
+            strip.add(part);
+        strip.store(out);
+    }
     out.scale = 1 / zoom;
     out.axis_x = axis.x - 0.5;
     out.axis_y = axis.y - 0.5;

@@ -6,7 +6,7 @@ enum { stamp = 11 };
 static double mask_values[300 * 256];
 
 /* Largest difference, in units of the peak, between the PSF of the pupil's image and that of its
-   geometry. */
+   geometry, at the place of SCA 1 that Roman's aberrations are given for. */
 static double difference(const wfpsf_instrument *instrument, const char *band, int struts,
                          int64_t nx, int64_t ny) {
     double by_mask[stamp * stamp], by_geometry[stamp * stamp], scale, x, y, area, peak;
@@ -17,9 +17,9 @@ static double difference(const wfpsf_instrument *instrument, const char *band, i
     CHECK_OK(wfpsf_options_create(&options));
     CHECK_OK(wfpsf_options_set_integer(options, WFPSF_OPTION_STRUTS, struts));
     CHECK_OK(wfpsf_options_set_integer(options, WFPSF_OPTION_FRAME, 1));
-    CHECK_OK(wfpsf_instrument_pupil(instrument, band, 5, options, mask, &scale, &x, &y));
-    CHECK_OK(wfpsf_psf_create_in_band(instrument, band, 5, 2043.5, 2043.5, 1500, options, &psf));
-    CHECK_OK(wfpsf_psf_create_from_mask(instrument, mask, scale, x, y, 5, 1500, options, &other));
+    CHECK_OK(wfpsf_instrument_pupil(instrument, band, 1, options, mask, &scale, &x, &y));
+    CHECK_OK(wfpsf_psf_create_in_band(instrument, band, 1, 2037, 2012, 1500, options, &psf));
+    CHECK_OK(wfpsf_psf_create_from_mask(instrument, mask, scale, x, y, 1, 1500, options, &other));
 
     double sum = 0, worst = 0;
     for (int64_t i = 0; i < nx * ny; ++i) {

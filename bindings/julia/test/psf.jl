@@ -71,14 +71,14 @@ end
 @testset "pupil" begin
     # The pupil as a mask gives the PSF by other means.
     instrument = Instrument()
-    drawn = pupil(instrument, "J129", 7, 300, 256)
+    drawn = Wfpsf.pupil(instrument, "J129", 7, 300, 256)
     @test all(0 .<= drawn.mask.pixels .<= 1)
     @test sum(drawn.mask.pixels) * drawn.scale_m^2 ≈ psf.lit_area_m2
     by_mask = PSF(instrument, 7, 1292, drawn.mask; mask_scale_m = drawn.scale_m,
                   axis_x = drawn.axis_x, axis_y = drawn.axis_y, eps = 1e-6)
     by_geometry = PSF(instrument, 7, 1292; eps = 1e-6)
     @test draw(by_mask, 9, 9).pixels ≈ draw(by_geometry, 9, 9).pixels rtol = 1e-3
-    @test status_of(() -> pupil(instrument, "J129", 0, 9, 9)) == LibWfpsf.WFPSF_ERROR_RANGE
+    @test status_of(() -> Wfpsf.pupil(instrument, "J129", 0, 9, 9)) == LibWfpsf.WFPSF_ERROR_RANGE
 end
 
 @testset "mask" begin
