@@ -28,9 +28,10 @@ std::complex<double> value_at(const Otf &otf, int32_t response, double kx, doubl
 
 // Frequency of a grid's pixel, in steps.
 double frequency(int64_t pixel, int64_t size, int32_t order) {
+    const int64_t half = size / 2;
     if (order == WFPSF_ORDER_CENTRED)
-        return static_cast<double>(pixel - size / 2);
-    const bool negative = order == WFPSF_ORDER_WRAPPED && pixel >= size - size / 2;
+        return static_cast<double>(pixel - half);
+    const bool negative = order == WFPSF_ORDER_WRAPPED && pixel >= size - half;
     return static_cast<double>(negative ? pixel - size : pixel);
 }
 

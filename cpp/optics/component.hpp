@@ -13,7 +13,7 @@ struct Component {
     std::shared_ptr<const Aperture> aperture;
     Wavefront wavefront; // waves
     double wavelength;   // m
-    double weight;       // > 0
+    double weight;       // its share of the light, times any number
 };
 
 } // namespace wfpsf

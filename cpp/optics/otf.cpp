@@ -44,8 +44,9 @@ double sinc(double x) {
 Otf::Otf(std::span<const Component> components, double pixel_scale, bool mirrored, double eps)
     : mirrored_(mirrored), pixel_scale_(pixel_scale) {
     // All lattices together take as much memory as the largest one alone.
-    const auto most = 2 * static_cast<int64_t>(static_cast<double>(most_pixels / 2) /
-                                               std::sqrt(static_cast<double>(components.size())));
+    const auto most =
+        2 * static_cast<int64_t>(static_cast<double>(most_pixels) /
+                                 (2 * std::sqrt(static_cast<double>(components.size()))));
     for (int64_t n = first_pixels;;) {
         make(components, n);
         estimate(components, n);
@@ -80,7 +81,7 @@ Otf::Lattice Otf::autocorrelation(const Component &component, int64_t n) {
     const PupilRaster raster = component.aperture->raster(n, n);
     const int64_t nx = raster.lit.nx(), ny = raster.lit.ny();
     const int64_t width = std::max(nx, ny);
-    const int64_t size = good_fft_length(2 * width + 1);
+    const int64_t size = good_fft_length(2 * (width + margin) + 1);
     Plane<Complex> field(size, size);
     double lit = 0, squares = 0;
     for (int64_t y = 0; y < ny; ++y)
@@ -165,6 +166,7 @@ void Otf::estimate(std::span<const Component> components, int64_t n) {
     if (exact_)
         return;
     Otf coarse;
+    coarse.mirrored_ = mirrored_;
     coarse.make(components, n / 2);
     constexpr int steps = 61;
     double difference = 0, whole = 0, largest = 0;
@@ -172,9 +174,9 @@ void Otf::estimate(std::span<const Component> components, int64_t n) {
         for (int i = -steps; i <= steps; ++i) {
             // Irregular against both lattices.
             const double kx = cutoff_ * std::remainder((i + 0.5) / steps + j * 0.618034, 2.0);
-            const double ky = (mirrored_ ? -1 : 1) * cutoff_ * (j + 0.29) / steps;
+            const double ky = cutoff_ * (j + 0.29) / steps;
             const Complex fine = diffraction(kx, ky);
-            const double off = std::abs(fine - coarse.diffraction(kx, mirrored_ ? -ky : ky));
+            const double off = std::abs(fine - coarse.diffraction(kx, ky));
             difference += off;
             whole += std::abs(fine);
             largest = std::max(largest, off);

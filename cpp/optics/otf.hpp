@@ -19,7 +19,8 @@ namespace wfpsf {
 //            = integral of f(u) conj f(u - lambda k) d2u / the same at k = 0,
 //
 // f the pupil function: transmission times exp(2 pi i W). It is averaged on square pixels. Shifts
-// by whole pixels are summed by FFT; in between, the autocorrelation of square pixels is bilinear.
+// by whole pixels are summed by FFT, others interpolated. A pupil that is a mask has such pixels
+// from the start; its autocorrelation is bilinear in between and comes out exactly.
 class Otf {
   public:
     static constexpr int64_t most_pixels = 2048; // across a pupil given as geometry
@@ -44,9 +45,9 @@ class Otf {
   private:
     // The autocorrelation for shifts of whole pixels along x and y; those with y < 0 are conjugate.
     struct Lattice {
-        Plane<std::complex<double>> value;
-        int64_t width;       // of the pupil, pixels: zero from there on
-        double pixels_per_k; // shift in pixels of one cycle per radian
+        Plane<std::complex<double>> value; // framed by a margin
+        int64_t width;                     // of the pupil, pixels: zero from there on
+        double pixels_per_k;               // shift in pixels of one cycle per radian
         double weight;
         double blur; // what the pixels' edges take from the light at shift 0
         bool exact;

@@ -234,9 +234,11 @@ class Strip {
     void add_curve(const Curve &curve, int64_t column, double x0, double x1, double sign) {
         const auto [low, high] = curve.range(x0, x1);
         borders_ = {x0, x1};
-        for (double level = std::max(0.0, std::ceil(low));
-             level <= std::min(high, static_cast<double>(sums_.ny())); ++level)
-            for (const double x : curve.x_at(level))
+        const auto rows = static_cast<double>(sums_.ny());
+        const auto lowest = static_cast<int64_t>(std::ceil(std::clamp(low, 0.0, rows)));
+        const auto highest = static_cast<int64_t>(std::floor(std::clamp(high, 0.0, rows)));
+        for (int64_t level = lowest; level <= highest; ++level)
+            for (const double x : curve.x_at(static_cast<double>(level)))
                 if (x > x0 && x < x1)
                     borders_.push_back(x);
         std::ranges::sort(borders_);
@@ -405,6 +407,7 @@ PupilRaster raster(const std::vector<LitPart> &parts, int64_t nx, int64_t ny) {
     const Vector middle{static_cast<double>(nx) / 2, static_cast<double>(ny) / 2};
     const Vector axis = middle - zoom / 2 * (low + high);
     std::vector<LitPart> in_pixels;
+    in_pixels.reserve(parts.size());
     for (const LitPart &part : parts)
         in_pixels.push_back(moved(part, zoom, axis));
     PupilRaster out{Plane<double>(nx, ny), Plane<double>(nx, ny), Plane<double>(nx, ny)};

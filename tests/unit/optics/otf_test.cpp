@@ -191,6 +191,18 @@ TEST(Otf, MaskOfSquaresIsExact) {
     }
 }
 
+TEST(Otf, OfOneSquareIsATent) {
+    Plane<double> mask(1, 1);
+    mask(0, 0) = 0.5;
+    const Component component{make_aperture(mask.view(), 0.7, 0, 0), aberrated(), wavelength, 1};
+    const Otf otf({&component, 1}, pixel_scale, false, 1e-9);
+    for (const auto &[x, y] :
+         {std::pair(0.0, 0.0), std::pair(0.3, -0.8), std::pair(-0.9, -0.9), std::pair(1.2, 0.1)})
+        EXPECT_LT(std::abs(otf.diffraction(x * 0.7 / wavelength, y * 0.7 / wavelength) -
+                           std::max(0.0, 1 - std::abs(x)) * std::max(0.0, 1 - std::abs(y))),
+                  1e-14);
+}
+
 TEST(Otf, OfSeveralComponentsIsTheirWeightedMean) {
     const AnnularPupil annulus = Instrument::get("wfirst-afta-c5").annular_pupil();
     const std::shared_ptr<const Aperture> aperture = make_aperture(annulus);
