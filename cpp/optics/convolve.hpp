@@ -17,7 +17,8 @@ template <class S> struct Source {
 
 // out(p) = flux * sum over the source's samples q of source(q) PSF(p - q): Psf::draw() of a star
 // for every sample, added up. Overwrites `out`; light that leaves it does not come back on the
-// other side. `out` has `oversampling` samples a native pixel, of which the source's are a multiple.
+// other side. `out` has `oversampling` samples a native pixel, of which the source's are a
+// multiple.
 template <class S, class T>
 void convolve(const Psf &psf, const Source<S> &source, int64_t oversampling, View<T> out);
 
