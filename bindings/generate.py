@@ -16,8 +16,8 @@ from typing import NamedTuple
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
 HEADERS = ROOT / "capi/include/wfpsf"
-ORDER = ("version.h.in", "status.h", "options.h", "image.h", "instrument.h", "design.h", "psf.h", "ipc.h",
-         "moments.h", "size.h")
+ORDER = ("version.h.in", "status.h", "options.h", "image.h", "instrument.h", "design.h", "sed.h",
+         "psf.h", "otf.h", "ipc.h", "moments.h", "size.h")
 WITHOUT_NAMES = {"export.h", "wfpsf.h"}
 WIDTH = 100
 

@@ -5,6 +5,7 @@
 #include "detector/ipc_kernel.hpp"
 #include "image/image.hpp"
 #include "instrument/instrument.hpp"
+#include "optics/otf.hpp"
 #include "optics/psf.hpp"
 
 #include <array>
@@ -31,6 +32,10 @@ struct wfpsf_sed {
 struct wfpsf_psf {
     wfpsf::Psf psf;
     double wavelength_nm, pixel_scale_arcsec; // as given, without a rounding
+};
+
+struct wfpsf_otf {
+    wfpsf::Otf otf;
 };
 
 struct wfpsf_ipc_kernel {
@@ -65,6 +70,10 @@ Plane<double> copy_of(const wfpsf_image &image);
 
 // The caller's progress function; one that does nothing if there is none.
 Progress progress_of(const wfpsf_options *options);
+
+// The pupil that an SCA sees through a band, or the bare annulus: STRUTS.
+std::unique_ptr<const Aperture> make_aperture_of(const Instrument &instrument, int32_t sca,
+                                                 const char *band, const wfpsf_options *options);
 
 PixelType pixel_type_of(int32_t pixel_type);
 

@@ -110,3 +110,33 @@ wfpsf_status wfpsf_instrument_zernikes(const wfpsf_instrument *instrument, int32
             *count = static_cast<int64_t>(zernikes.size());
     });
 }
+
+wfpsf_status wfpsf_instrument_pupil(const wfpsf_instrument *instrument, const char *band,
+                                    int32_t sca, const wfpsf_options *options, wfpsf_image *out,
+                                    double *scale_m, double *axis_x, double *axis_y) {
+    return guarded([&] {
+        require_pointer(instrument, "instrument");
+        require_pointer(band, "band");
+        require_pointer(out, "out");
+        require_pointer(scale_m, "scale_m");
+        require_pointer(axis_x, "axis_x");
+        require_pointer(axis_y, "axis_y");
+        const Instrument &i = instrument->instrument;
+        (void)i.pupil(sca, band); // refuses what it does not know, struts or not
+        if (out->image.nx() < 1 || out->image.ny() < 1)
+            fail(WFPSF_ERROR_SIZE, "out: is %lld x %lld pixels: must not be empty",
+                 static_cast<long long>(out->image.nx()), static_cast<long long>(out->image.ny()));
+        const PupilRaster raster =
+            make_aperture_of(i, sca, band, options)->raster(out->image.nx(), out->image.ny());
+        std::visit(
+            [&]<class T>(View<T> pixels) {
+                for (int64_t y = 0; y < pixels.ny; ++y)
+                    for (int64_t x = 0; x < pixels.nx; ++x)
+                        pixels(x, y) = static_cast<T>(raster.lit(x, y));
+            },
+            out->image.pixels());
+        *scale_m = raster.scale;
+        *axis_x = raster.axis_x;
+        *axis_y = raster.axis_y;
+    });
+}

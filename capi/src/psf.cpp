@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "funnel.hpp"
 #include "handles.hpp"
+#include "image/overlap.hpp"
+#include "optics/convolve.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +11,16 @@
 #include <variant>
 
 using namespace wfpsf;
+
+// band: NULL for an instrument that has one pupil for all.
+std::unique_ptr<const Aperture> wfpsf::make_aperture_of(const Instrument &instrument, int32_t sca,
+                                                        const char *band,
+                                                        const wfpsf_options *options) {
+    if (!flag(options, WFPSF_OPTION_STRUTS))
+        return make_aperture(instrument.annular_pupil());
+    return std::visit([](const auto &pupil) { return make_aperture(pupil); },
+                      band ? instrument.pupil(sca, band) : instrument.pupils.front());
+}
 
 namespace {
 
@@ -29,15 +41,6 @@ Wavefront make_wavefront(const Instrument &instrument, std::span<const double> o
     if (auto map = opd_map(options))
         wavefront.add(std::move(map), instrument.reference_wavelength_nm() * 1e-9);
     return wavefront;
-}
-
-// band: NULL for an instrument that has one pupil for all.
-std::unique_ptr<const Aperture> make_aperture_of(const Instrument &instrument, int32_t sca,
-                                                 const char *band, const wfpsf_options *options) {
-    if (!flag(options, WFPSF_OPTION_STRUTS))
-        return make_aperture(instrument.annular_pupil());
-    return std::visit([](const auto &pupil) { return make_aperture(pupil); },
-                      band ? instrument.pupil(sca, band) : instrument.pupils.front());
 }
 
 // Jitter and charge diffusion, native pixels^2.
@@ -123,6 +126,14 @@ wfpsf_status create_in_band(const Instrument &instrument, const char *band, int3
     return create(
         instrument, instrument.zernikes(sca, x, y, rule), lights, mirrored, options,
         [&] { return make_aperture_of(instrument, sca, band, options); }, out);
+}
+
+// An image that states another pixel scale than the PSF's is refused.
+void require_scale(const wfpsf_psf &psf, const Image &image, const char *argument) {
+    const double scale = image.pixel_scale_arcsec();
+    if (scale != 0 && std::abs(scale / psf.pixel_scale_arcsec - 1) > 1e-9)
+        fail(WFPSF_ERROR_ARGUMENT, "%s: has pixels of %.10g arcsec, the PSF of %.10g", argument,
+             scale, psf.pixel_scale_arcsec);
 }
 
 } // namespace
@@ -247,10 +258,7 @@ wfpsf_status wfpsf_psf_add_stars(const wfpsf_psf *psf, int64_t count, const doub
         Image &target = image->image;
         for (const Effect later : {Effect::ipc, Effect::ipc_correction})
             target.require_not_applied(later, flag(options, WFPSF_OPTION_FORCE));
-        const double scale = target.pixel_scale_arcsec();
-        if (scale != 0 && std::abs(scale / psf->pixel_scale_arcsec - 1) > 1e-9)
-            fail(WFPSF_ERROR_ARGUMENT, "image: has pixels of %.10g arcsec, the PSF of %.10g", scale,
-                 psf->pixel_scale_arcsec);
+        require_scale(*psf, target, "image");
         std::vector<Star> stars;
         for (int64_t i = 0; i < count; ++i) {
             for (const auto &[name, value] :
@@ -265,6 +273,33 @@ wfpsf_status wfpsf_psf_add_stars(const wfpsf_psf *psf, int64_t count, const doub
             [&](auto pixels) { psf->psf.add(stars, target.oversampling(), pixels, threads); },
             target.pixels());
         target.set_pixel_scale_arcsec(psf->pixel_scale_arcsec);
+        target.record_applied(Effect::pixel_response);
+    });
+}
+
+wfpsf_status wfpsf_psf_convolve(const wfpsf_psf *psf, const wfpsf_image *galaxy, double x, double y,
+                                double flux, const wfpsf_options *options, wfpsf_image *image) {
+    return guarded([&] {
+        require_pointer(psf, "psf");
+        require_pointer(galaxy, "galaxy");
+        require_pointer(image, "image");
+        require_finite(x, "x");
+        require_finite(y, "y");
+        require_finite(flux, "flux");
+        for (const Effect effect : {Effect::pixel_response, Effect::ipc, Effect::ipc_correction})
+            galaxy->image.require_not_applied(effect, flag(options, WFPSF_OPTION_FORCE));
+        require_scale(*psf, galaxy->image, "galaxy");
+        Image &target = image->image;
+        std::visit(
+            [&]<class S, class T>(View<const S> samples, View<T> pixels) {
+                if (shares_memory(samples, pixels))
+                    fail(WFPSF_ERROR_OVERLAP, "image: shares memory with galaxy");
+                convolve(psf->psf, Source<S>{samples, galaxy->image.oversampling(), x, y, flux},
+                         target.oversampling(), pixels);
+            },
+            galaxy->image.pixels(), target.pixels());
+        target.set_pixel_scale_arcsec(psf->pixel_scale_arcsec);
+        target.set_applied(0);
         target.record_applied(Effect::pixel_response);
     });
 }

@@ -59,8 +59,8 @@ void wfpsf_sed_destroy(wfpsf_sed *sed) {
     delete sed;
 }
 
-wfpsf_status wfpsf_sed_photons(const wfpsf_sed *sed, int64_t count, const double *wavelength_nm,
-                               double *photons) {
+wfpsf_status wfpsf_sed_photon_density(const wfpsf_sed *sed, int64_t count,
+                                      const double *wavelength_nm, double *photons) {
     return guarded([&] {
         require_pointer(sed, "sed");
         const std::span<const double> nm = numbers(count, wavelength_nm, "wavelength_nm");

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numerics/fft.hpp"
 
+#include <array>
 #include <map>
 #include <mutex>
 #include <new>
-#include <utility>
 
 #include <fftw3.h>
 
@@ -25,25 +25,42 @@ int64_t good_fft_length(int64_t n) {
     }
 }
 
-BackwardFft::BackwardFft(int64_t n, int64_t batch) {
+namespace {
+
+// Unaligned, so that any buffer will do; an estimate does not touch the data.
+constexpr unsigned flags = FFTW_ESTIMATE | FFTW_UNALIGNED;
+
+using Shape = std::array<int64_t, 3>; // dimensions; n and batch, or nx and ny
+
+template <class Make> fftw_plan plan_of(const Shape &shape, Make make) {
     static std::mutex lock;
     // For the life of the process: never destroyed, so that threads may outlive main().
-    static auto &plans = *new std::map<std::pair<int64_t, int64_t>, fftw_plan>;
+    static auto &plans = *new std::map<Shape, fftw_plan>;
     const std::lock_guard guard(lock);
-    fftw_plan &plan = plans[{n, batch}];
-    if (!plan) {
-        const int length = static_cast<int>(n), side_by_side = static_cast<int>(batch);
-        // Unaligned, so that any buffer will do; an estimate does not touch the data.
-        plan = fftw_plan_many_dft(1, &length, side_by_side, nullptr, nullptr, side_by_side, 1,
-                                  nullptr, nullptr, side_by_side, 1, FFTW_BACKWARD,
-                                  FFTW_ESTIMATE | FFTW_UNALIGNED);
-        if (!plan)
-            throw std::bad_alloc();
-    }
-    plan_ = plan;
+    fftw_plan &plan = plans[shape];
+    if (!plan)
+        plan = make();
+    if (!plan)
+        throw std::bad_alloc();
+    return plan;
 }
 
-void BackwardFft::run(std::complex<double> *data) const {
+} // namespace
+
+BackwardFft::BackwardFft(int64_t n, int64_t batch)
+    : PlannedFft(plan_of({1, n, batch}, [&] {
+          const int length = static_cast<int>(n), side_by_side = static_cast<int>(batch);
+          return fftw_plan_many_dft(1, &length, side_by_side, nullptr, nullptr, side_by_side, 1,
+                                    nullptr, nullptr, side_by_side, 1, FFTW_BACKWARD, flags);
+      })) {}
+
+BackwardFft2d::BackwardFft2d(int64_t nx, int64_t ny)
+    : PlannedFft(plan_of({2, nx, ny}, [&] {
+          return fftw_plan_dft_2d(static_cast<int>(ny), static_cast<int>(nx), nullptr, nullptr,
+                                  FFTW_BACKWARD, flags);
+      })) {}
+
+void PlannedFft::run(std::complex<double> *data) const {
     auto *buffer = reinterpret_cast<fftw_complex *>(data);
     fftw_execute_dft(static_cast<fftw_plan>(plan_), buffer, buffer);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One-dimensional transforms of FFTW3, planned once per shape.
+// Transforms of FFTW3 in one and two dimensions, planned once per shape.
 #pragma once
 
 #include <complex>
@@ -11,16 +11,30 @@ namespace wfpsf {
 // is not 2, because long powers of two collide in the cache.
 int64_t good_fft_length(int64_t n);
 
-// out[k] = sum_l in[l] exp(+2 pi i k l / n), in place, unnormalised, for `batch` sequences side by
-// side: element l of sequence s is data[l * batch + s]. Plans are made under one lock for the whole
-// process, by estimate, so that equal calls give equal bits; running them needs no lock.
-class BackwardFft {
+// Plans are made under one lock for the whole process, by estimate, so that equal calls give equal
+// bits; running them needs no lock.
+class PlannedFft {
   public:
-    explicit BackwardFft(int64_t n, int64_t batch = 1);
     void run(std::complex<double> *data) const;
+
+  protected:
+    explicit PlannedFft(void *plan) : plan_(plan) {}
 
   private:
     void *plan_; // fftw_plan, owned by the cache
+};
+
+// out[k] = sum_l in[l] exp(+2 pi i k l / n), in place, unnormalised, for `batch` sequences side by
+// side: element l of sequence s is data[l * batch + s].
+class BackwardFft : public PlannedFft {
+  public:
+    explicit BackwardFft(int64_t n, int64_t batch = 1);
+};
+
+// The same in two dimensions, over nx by ny numbers, x fastest.
+class BackwardFft2d : public PlannedFft {
+  public:
+    BackwardFft2d(int64_t nx, int64_t ny);
 };
 
 } // namespace wfpsf

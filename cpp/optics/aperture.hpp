@@ -9,6 +9,7 @@
 #include "image/view.hpp"
 #include "instrument/pupil.hpp"
 #include "numerics/bandlimited.hpp"
+#include "optics/pupil_raster.hpp"
 #include "optics/wavefront.hpp"
 
 #include <memory>
@@ -40,6 +41,9 @@ class Aperture {
     // |A|^2 good to about `eps` of area^2, the peak of the unaberrated PSF.
     virtual Diffraction diffract(const Wavefront &wavefront, double wavelength,
                                  const FocalGrid &grid, double eps) const = 0;
+
+    // The pupil drawn on nx by ny square pixels, or a mask's own pixels, however many.
+    virtual PupilRaster raster(int64_t nx, int64_t ny) const = 0;
 
     double area() const { return area_; }         // lit, m^2
     double diameter() const { return diameter_; } // the larger extent along x or y, m

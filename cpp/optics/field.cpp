@@ -285,7 +285,7 @@ Attempt attempt(const ImageMaker &maker, const WavelengthRule &rule,
         Field &field = result.fields.emplace_back(maker.field(sums[s]));
         field.nodes = nodes;
         for (size_t k = 0; k < rule.size(); ++k)
-            field.components.push_back({rule.wavelengths()[k], sums[s].weights[k]});
+            field.colours.push_back({rule.wavelengths()[k], sums[s].weights[k]});
         result.error = std::max(result.error, field.error);
         const double colour_error = 2 / field.peak * check.error(spectra[s], maker);
         result.colour_error = std::max(result.colour_error, colour_error);

@@ -37,8 +37,7 @@ struct PsfSettings {
     Covariance blur = {}; // of a Gaussian, native pixels^2: jitter and charge diffusion
 };
 
-// The part of a PSF that has one wavelength.
-struct Component {
+struct Colour {
     double wavelength, weight; // m; of the light detected
 };
 
@@ -47,12 +46,12 @@ struct Field {
     BandlimitedInterpolator interpolator;
     int64_t per_pixel = 1; // grid samples a native pixel
     Plane<double> value;   // fraction of the light in a native pixel centred on each grid point
-    std::vector<Component> components;
-    int64_t nodes = 0;      // of the pupil, over all wavelengths
-    int64_t grid_size = 0;  // of the diffraction image that this was filtered from
-    double peak = 0;        // largest fraction of the light in one pixel
-    double error = 0;       // estimate of the numerical error, of the peak pixel
-    double model_error = 0; // of the pupil's description, likewise
+    std::vector<Colour> colours; // that it is a sum of
+    int64_t nodes = 0;           // of the pupil, over all wavelengths
+    int64_t grid_size = 0;       // of the diffraction image that this was filtered from
+    double peak = 0;             // largest fraction of the light in one pixel
+    double error = 0;            // estimate of the numerical error, of the peak pixel
+    double model_error = 0;      // of the pupil's description, likewise
 };
 
 // One field a light, all from the same monochromatic images, reaching `radius` native pixels.

@@ -148,8 +148,9 @@ double largest(View<const double> intensity) {
 
 template <class Pupil> class GeometricAperture final : public Aperture {
   public:
-    GeometricAperture(const Pupil &pupil, double diameter, double fit_error)
-        : pupil_(pupil), fit_error_(fit_error) {
+    GeometricAperture(const Pupil &pupil, std::vector<LitPart> parts, double diameter,
+                      double fit_error)
+        : pupil_(pupil), parts_(std::move(parts)), fit_error_(fit_error) {
         pupil_nodes(pupil, 1, 1e-15, [this](const PupilNodes &nodes) {
             area_ = std::accumulate(nodes.weight.begin(), nodes.weight.end(), area_);
         });
@@ -187,6 +188,10 @@ template <class Pupil> class GeometricAperture final : public Aperture {
                 asked *= std::clamp(eps / out.error, 1e-3, 0.3);
             before = out.error;
         }
+    }
+
+    PupilRaster raster(int64_t nx, int64_t ny) const override {
+        return wfpsf::raster(parts_, nx, ny);
     }
 
   private:
@@ -233,34 +238,38 @@ template <class Pupil> class GeometricAperture final : public Aperture {
     }
 
     Pupil pupil_;
+    std::vector<LitPart> parts_;
     double fit_error_;
 };
 
 } // namespace
 
 std::unique_ptr<const Aperture> make_aperture(const SegmentedPupil &pupil) {
-    return std::make_unique<GeometricAperture<SegmentedPupil>>(pupil, 2 * pupil.outer.radius,
-                                                               pupil.fit_error);
+    return std::make_unique<GeometricAperture<SegmentedPupil>>(
+        pupil, lit_parts(pupil), 2 * pupil.outer.radius, pupil.fit_error);
 }
 
 std::unique_ptr<const Aperture> make_aperture(const RomanPupil &pupil) {
-    return std::make_unique<GeometricAperture<std::vector<Cell>>>(lit_cells(lit_region(pupil)),
-                                                                  extent(pupil), pupil.fit_error);
+    const LitRegion region = lit_region(pupil);
+    return std::make_unique<GeometricAperture<std::vector<Cell>>>(
+        lit_cells(region), lit_parts(region), extent(pupil), pupil.fit_error);
 }
 
 std::unique_ptr<const Aperture> make_aperture(const SpiderPupil &pupil) {
     const double radius = pupil.outer_radius;
     if (pupil.struts.empty())
         return make_aperture(AnnularPupil{radius, pupil.inner_radius});
+    const LitRegion region = lit_region(pupil);
     auto aperture = std::make_unique<GeometricAperture<std::vector<Cell>>>(
-        lit_cells(lit_region(pupil)), 2 * radius, 0.0);
+        lit_cells(region), lit_parts(region), 2 * radius, 0.0);
     if (!(aperture->area() > 1e-6 * pi * radius * radius))
         fail(WFPSF_ERROR_ARGUMENT, "struts: leave %g m^2 of the pupil lit", aperture->area());
     return aperture;
 }
 
 std::unique_ptr<const Aperture> make_aperture(const AnnularPupil &pupil) {
-    return std::make_unique<GeometricAperture<AnnularPupil>>(pupil, 2 * pupil.outer_radius, 0.0);
+    return std::make_unique<GeometricAperture<AnnularPupil>>(pupil, lit_parts(pupil),
+                                                             2 * pupil.outer_radius, 0.0);
 }
 
 } // namespace wfpsf

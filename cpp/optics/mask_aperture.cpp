@@ -103,6 +103,13 @@ class MaskAperture final : public Aperture {
         return {std::move(intensity), lit_.nx() * lit_.ny(), rounding, turn * turn / 12};
     }
 
+    PupilRaster raster(int64_t, int64_t) const override {
+        return {.lit = lit_,
+                .scale = scale_,
+                .axis_x = -u_.front() / scale_,
+                .axis_y = -v_.front() / scale_};
+    }
+
   private:
     // The transform of one pixel's side.
     double square(double k) const {

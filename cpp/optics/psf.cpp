@@ -27,6 +27,15 @@ Psf::Psf(std::shared_ptr<const Aperture> aperture, const Wavefront &wavefront,
 Psf::Psf(const Optics &optics, Light light, const PsfSettings &settings, Field field)
     : optics_(optics), light_(std::move(light)), settings_(settings), field_(std::move(field)) {}
 
+std::vector<Component> Psf::components() const {
+    std::vector<Component> parts;
+    for (const Colour &colour : field_.colours)
+        parts.push_back({optics_.aperture,
+                         optics_.wavefront.scaled(optics_.wavelength / colour.wavelength),
+                         colour.wavelength, colour.weight});
+    return parts;
+}
+
 template <class T>
 void Psf::draw(double x, double y, double flux, int64_t oversampling, View<T> out) const {
     if (out.empty())

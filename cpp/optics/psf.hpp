@@ -4,6 +4,7 @@
 #pragma once
 
 #include "image/view.hpp"
+#include "optics/component.hpp"
 #include "optics/field.hpp"
 
 #include <span>
@@ -42,7 +43,8 @@ class Psf {
     const PsfSettings &settings() const { return settings_; }
     double lit_area() const { return optics_.aperture->area(); } // m^2
     int64_t nodes() const { return field_.nodes; }
-    const std::vector<Component> &components() const { return field_.components; }
+    // What it is a sum of.
+    std::vector<Component> components() const;
     int64_t grid_size() const { return field_.grid_size; }
     double grid_step() const {
         return settings_.pixel_scale / static_cast<double>(field_.per_pixel);

@@ -11,7 +11,7 @@ static wfpsf_sed *power_law(int32_t unit, double exponent) {
 static double ratio(const wfpsf_sed *sed, double numerator_nm, double denominator_nm) {
     const double nm[2] = {numerator_nm, denominator_nm};
     double photons[2] = {NAN, NAN};
-    CHECK_OK(wfpsf_sed_photons(sed, 2, nm, photons));
+    CHECK_OK(wfpsf_sed_photon_density(sed, 2, nm, photons));
     return photons[0] / photons[1];
 }
 
@@ -30,7 +30,7 @@ static void test_seds(void) {
     CHECK_OK(wfpsf_sed_create_redshifted(table, 1, &red));
     wfpsf_sed_destroy(table);
     CHECK_NEAR(ratio(red, 1500, 1000), 2, 1e-14);
-    CHECK_OK(wfpsf_sed_photons(red, 0, NULL, NULL));
+    CHECK_OK(wfpsf_sed_photon_density(red, 0, NULL, NULL));
 
     CHECK_FAILS(WFPSF_ERROR_ARGUMENT, "unit = 3", wfpsf_sed_create_power_law(3, 0, &sed));
     CHECK(sed == NULL);
@@ -51,9 +51,9 @@ static void test_seds(void) {
     CHECK_FAILS(WFPSF_ERROR_NULL, "sed", wfpsf_sed_create_redshifted(NULL, 1, &sed));
     CHECK_FAILS(WFPSF_ERROR_NULL, "out", wfpsf_sed_create_black_body(5000, NULL));
     CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "wavelength_nm[0] = inf",
-                wfpsf_sed_photons(red, 1, infinite, photons));
+                wfpsf_sed_photon_density(red, 1, infinite, photons));
     CHECK_FAILS(WFPSF_ERROR_RANGE, "wavelength_nm[0] = 0",
-                wfpsf_sed_photons(red, 1, zero, photons));
+                wfpsf_sed_photon_density(red, 1, zero, photons));
     CHECK(photons[0] == 7);
     wfpsf_sed_destroy(red);
     wfpsf_sed_destroy(ab);

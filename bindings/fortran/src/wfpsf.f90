@@ -56,6 +56,7 @@ module wfpsf
         procedure :: band_name => instrument_band_name
         procedure :: throughput => instrument_throughput
         procedure :: zernikes => instrument_zernikes
+        procedure :: pupil => instrument_pupil
         final :: instrument_finalize
     end type wfpsf_instrument
 
@@ -105,10 +106,22 @@ module wfpsf
         procedure :: destroy => psf_destroy
         procedure :: draw => psf_draw
         procedure :: add_stars => psf_add_stars
+        procedure :: convolve => psf_convolve
         procedure :: create_in_band => psf_create_in_band
         procedure :: get => psf_get
         final :: psf_finalize
     end type wfpsf_psf
+
+    ! A PSF in k space.
+    type, extends(handle) :: wfpsf_otf
+    contains
+        procedure :: create => otf_create
+        procedure :: destroy => otf_destroy
+        procedure :: values => otf_values
+        procedure :: grid => otf_grid
+        procedure :: get => otf_get
+        final :: otf_finalize
+    end type wfpsf_otf
 
     ! An interpixel capacitance kernel, applied by convolution.
     type, extends(handle) :: wfpsf_ipc_kernel
@@ -243,7 +256,7 @@ module wfpsf
     ! Instruments.
     private :: instrument_create, instrument_destroy, instrument_constant, instrument_constant_name
     private :: instrument_band, instrument_band_name, instrument_throughput, instrument_zernikes
-    private :: instrument_create_from_design, instrument_finalize
+    private :: instrument_create_from_design, instrument_pupil, instrument_finalize
     interface
         ! name: "wfirst-afta-c5".
         module subroutine instrument_create(self, name, stat, errmsg)
@@ -317,6 +330,20 @@ module wfpsf
             integer, intent(out), optional :: stat
             character(len=*), intent(inout), optional :: errmsg
         end subroutine instrument_zernikes
+
+        ! Draws the pupil that an SCA sees through a band: lit fractions of the pixels, their side in
+        ! metres, and the optical axis, the first pixel being (1, 1). Option: struts.
+        module subroutine instrument_pupil(self, band, sca, image, scale_m, axis_x, axis_y, &
+            options, stat, errmsg)
+            class(wfpsf_instrument), intent(in) :: self
+            character(len=*), intent(in) :: band
+            integer, intent(in) :: sca
+            type(wfpsf_image), intent(inout) :: image
+            real(real64), intent(inout) :: scale_m, axis_x, axis_y
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine instrument_pupil
 
         impure elemental module subroutine instrument_finalize(self)
             type(wfpsf_instrument), intent(inout) :: self
@@ -577,8 +604,8 @@ module wfpsf
     end interface
 
     ! PSFs.
-    private :: psf_create, psf_create_from_mask, psf_destroy, psf_draw, psf_add_stars, psf_create_in_band, &
-        psf_get, psf_finalize
+    private :: psf_create, psf_create_from_mask, psf_destroy, psf_draw, psf_add_stars, &
+        psf_convolve, psf_create_in_band, psf_get, psf_finalize
     interface
         ! At the centre of detector sca, 1..18. Options: eps, struts, psf_radius, piston_tilt and
         ! extra Zernikes.
@@ -645,6 +672,18 @@ module wfpsf
             character(len=*), intent(inout), optional :: errmsg
         end subroutine psf_add_stars
 
+        ! Overwrites the image with an extended source: an image of flux per sample, convolved. Its
+        ! centre falls on (x, y), pixels of the image. Option: force.
+        module subroutine psf_convolve(self, galaxy, x, y, flux, image, options, stat, errmsg)
+            class(wfpsf_psf), intent(in) :: self
+            type(wfpsf_image), intent(in) :: galaxy
+            real(real64), intent(in) :: x, y, flux
+            type(wfpsf_image), intent(inout) :: image
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine psf_convolve
+
         ! key: wfpsf_psf_*.
         module subroutine psf_get(self, key, value, stat, errmsg)
             class(wfpsf_psf), intent(in) :: self
@@ -657,6 +696,56 @@ module wfpsf
         impure elemental module subroutine psf_finalize(self)
             type(wfpsf_psf), intent(inout) :: self
         end subroutine psf_finalize
+    end interface
+
+    ! Optical transfer functions.
+    private :: otf_create, otf_destroy, otf_values, otf_grid, otf_get, otf_finalize
+    interface
+        ! Of a PSF, which may be destroyed afterwards. Option: eps.
+        module subroutine otf_create(self, psf, options, stat, errmsg)
+            class(wfpsf_otf), intent(inout) :: self
+            type(wfpsf_psf), intent(in) :: psf
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine otf_create
+
+        module subroutine otf_destroy(self)
+            class(wfpsf_otf), intent(inout) :: self
+        end subroutine otf_destroy
+
+        ! At (kx, ky), cycles per arcsec, four arrays of one size; response: wfpsf_response_*.
+        module subroutine otf_values(self, response, kx, ky, re, im, stat, errmsg)
+            class(wfpsf_otf), intent(in) :: self
+            integer, intent(in) :: response
+            real(real64), intent(in), contiguous :: kx(:), ky(:)
+            real(real64), intent(inout), contiguous :: re(:), im(:)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine otf_values
+
+        ! On two images of one size; order: wfpsf_order_*, step: cycles per arcsec.
+        module subroutine otf_grid(self, response, order, step, re, im, stat, errmsg)
+            class(wfpsf_otf), intent(in) :: self
+            integer, intent(in) :: response, order
+            real(real64), intent(in) :: step
+            type(wfpsf_image), intent(inout) :: re, im
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine otf_grid
+
+        ! key: wfpsf_otf_*.
+        module subroutine otf_get(self, key, value, stat, errmsg)
+            class(wfpsf_otf), intent(in) :: self
+            integer, intent(in) :: key
+            real(real64), intent(inout) :: value
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine otf_get
+
+        impure elemental module subroutine otf_finalize(self)
+            type(wfpsf_otf), intent(inout) :: self
+        end subroutine otf_finalize
     end interface
 
     ! IPC kernels.

@@ -69,6 +69,18 @@ contains
         call report(status, stat, errmsg)
     end procedure instrument_zernikes
 
+    module procedure instrument_pupil
+        integer :: status
+
+        status = wfpsf_instrument_pupil(self%pointer, c_text(band), sca, pointer_of(options), &
+            image%pointer, scale_m, axis_x, axis_y)
+        if (status == wfpsf_ok) then
+            axis_x = axis_x + 1
+            axis_y = axis_y + 1
+        end if
+        call report(status, stat, errmsg)
+    end procedure instrument_pupil
+
     module procedure instrument_finalize
         call self%destroy()
     end procedure instrument_finalize

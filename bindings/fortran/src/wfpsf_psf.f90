@@ -59,6 +59,11 @@ contains
             image%pointer), stat, errmsg)
     end procedure psf_add_stars
 
+    module procedure psf_convolve
+        call report(wfpsf_psf_convolve(self%pointer, galaxy%pointer, x - 1, y - 1, flux, &
+            pointer_of(options), image%pointer), stat, errmsg)
+    end procedure psf_convolve
+
     module procedure psf_get
         call report(wfpsf_psf_get(self%pointer, key, value), stat, errmsg)
     end procedure psf_get

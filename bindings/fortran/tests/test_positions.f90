@@ -12,6 +12,9 @@ program test_positions
     call of_options()
     call of_a_star()
     call of_a_mask()
+    call of_a_galaxy()
+    call of_an_otf()
+    call of_a_pupil()
 
 contains
 
@@ -167,5 +170,79 @@ contains
         call expect(maxval(abs(stamp - stamp(24:1:-1, 21:1:-1))) < 2 * eps * maxval(stamp), &
             "even PSF")
     end subroutine of_a_mask
+
+    ! One sample in the middle is a star.
+    subroutine of_a_galaxy()
+        real(real64), target :: samples(5, 7), image_pixels(15, 17), star_pixels(15, 17)
+        type(wfpsf_instrument) :: instrument
+        type(wfpsf_psf) :: psf
+        type(wfpsf_image) :: galaxy, image, star
+        integer :: status
+
+        samples = 0
+        samples(3, 4) = 2
+        call galaxy%wrap(samples, 4)
+        call image%wrap(image_pixels, 1)
+        call star%wrap(star_pixels, 1)
+        call instrument%create("wfirst-afta-c5")
+        call psf%create(instrument, 7, 1292.0_real64)
+        call psf%convolve(galaxy, 7.3_real64, 9.1_real64, 3.0_real64, image)
+        call psf%draw(7.3_real64, 9.1_real64, 6.0_real64, star)
+        call expect(maxval(abs(image_pixels - star_pixels)) < 2 * eps * maxval(star_pixels), &
+            "a galaxy of one sample")
+        call psf%convolve(star, 7.3_real64, 9.1_real64, 3.0_real64, image, stat=status)
+        call expect(status == wfpsf_error_already_applied, "pixel response twice")
+    end subroutine of_a_galaxy
+
+    subroutine of_an_otf()
+        real(real64), target :: re_pixels(5, 4), im_pixels(5, 4)
+        real(real64) :: re(2), im(2), cutoff, step
+        type(wfpsf_instrument) :: instrument
+        type(wfpsf_options) :: options
+        type(wfpsf_psf) :: psf
+        type(wfpsf_otf) :: otf
+        type(wfpsf_image) :: re_image, im_image
+        integer :: status
+
+        call instrument%create("wfirst-afta-c5")
+        call options%create()
+        call options%set(wfpsf_option_eps, 1e-3_real64)
+        call psf%create(instrument, 7, 1292.0_real64, options)
+        call otf%create(psf, options)
+        call psf%destroy()
+        call otf%get(wfpsf_otf_cutoff, cutoff)
+        step = cutoff / 7
+        call otf%values(wfpsf_response_effective, [0.0_real64, 2 * step], [0.0_real64, -step], re, &
+            im)
+        call expect(abs(re(1) - 1) < 1e-15_real64 .and. abs(im(1)) < 1e-15_real64, "OTF at zero")
+        call re_image%wrap(re_pixels, 1)
+        call im_image%wrap(im_pixels, 1)
+        call otf%grid(wfpsf_response_effective, wfpsf_order_wrapped, step, re_image, im_image)
+        call expect(abs(re_pixels(3, 4) - re(2)) < 1e-15_real64 .and. &
+            abs(im_pixels(3, 4) - im(2)) < 1e-15_real64, "grid of an OTF")
+        call otf%values(wfpsf_response_effective, [step], [step, step], re, im, stat=status)
+        call expect(status == wfpsf_error_size, "frequencies of two sizes")
+    end subroutine of_an_otf
+
+    ! The optical axis comes back counted from 1.
+    subroutine of_a_pupil()
+        real(real64), target :: pixels(60, 51)
+        type(wfpsf_instrument) :: instrument
+        type(wfpsf_options) :: options
+        type(wfpsf_image) :: image
+        real(real64) :: scale_m, axis_x, axis_y
+        integer :: status
+
+        call instrument%create("wfirst-afta-c5")
+        call options%create()
+        call options%set(wfpsf_option_struts, 0)
+        call image%wrap(pixels, 1)
+        call instrument%pupil("J129", 7, image, scale_m, axis_x, axis_y, options)
+        call expect(abs(axis_x - 30.5_real64) < 1e-9_real64 .and. &
+            abs(axis_y - 26) < 1e-9_real64, "axis of an annulus")
+        call expect(abs(scale_m - 2.36_real64 / 51) < 1e-12_real64, "its scale")
+        call instrument%pupil("J129", 19, image, scale_m, axis_x, axis_y, stat=status)
+        call expect(status == wfpsf_error_range, "no such detector")
+    end subroutine of_a_pupil
 
 end program test_positions

@@ -27,10 +27,11 @@ module Wfpsf
 
 export WfpsfError, options,
     Design, set_telescope!, add_strut!, set_detector!, set_zernikes!, add_band!,
-    Instrument, constant, constants, band, bands, throughput, zernikes,
+    Instrument, constant, constants, band, bands, throughput, zernikes, pupil,
     Image, record, set_record!, read_fits, write_fits,
     interleave, interleave!, deinterleave, deinterleave!,
-    PSF, draw, draw!, add_stars!,
+    PSF, draw, draw!, add_stars!, convolve!,
+    OTF, otf_grid,
     IPCKernel, wfc3_kernel, correction, flipped, taps, apply_ipc, apply_ipc!,
     Moments, adaptive_moments, unweighted_moments,
     encircled_energy, ee_radius, fwhm
@@ -46,7 +47,9 @@ include("design.jl")
 include("instrument.jl")
 include("image.jl")
 include("interleave.jl")
+include("pupil.jl")
 include("psf.jl")
+include("otf.jl")
 include("ipc.jl")
 include("moments.jl")
 include("size.jl")

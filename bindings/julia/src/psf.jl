@@ -116,6 +116,23 @@ function add_stars!(image::Image, psf::PSF, x::AbstractVector{<:Real}, y::Abstra
     return image
 end
 
+"""
+    convolve!(image, psf, galaxy, x, y; flux = 1, force = false)
+
+Draws an extended source, overwriting the image: `galaxy`, an image of the flux of each sample, its
+oversampling a multiple of the image's, convolved with the PSF. It is what `draw!` gives for a star
+at every sample, added up; nothing wraps around. The centre of `galaxy` falls on (x, y), pixels of
+the image, the centre of the first one being (1, 1). `flux` multiplies the samples. A galaxy that
+holds the pixel response or IPC already is refused unless `force` is set.
+"""
+function convolve!(image::Image, psf::PSF, galaxy::Image, x::Real, y::Real; flux::Real = 1,
+                   keywords...)
+    with_options((:force,), keywords) do options
+        check(LibWfpsf.wfpsf_psf_convolve(psf, galaxy, x - 1, y - 1, flux, options, image))
+    end
+    return image
+end
+
 function draw(psf::PSF, nx::Integer, ny::Integer; x::Real = (nx + 1) / 2, y::Real = (ny + 1) / 2,
               flux::Real = 1, oversampling::Integer = 1, pixel_type::Type{<:PixelType} = Float64)
     image = Image(pixel_type, nx, ny; oversampling = oversampling)

@@ -55,6 +55,32 @@ near = [abs(x - 12.3) <= psf.radius && abs(y - 4) <= psf.radius for x = 1:41, y 
     @test all(stamp == star.pixels for stamp in stamps)
 end
 
+@testset "galaxy" begin
+    # One sample is a star; a star's image holds the pixel response already.
+    galaxy = Image(Float64, 5, 5; oversampling = 4)
+    galaxy.pixels[3, 3] = 2
+    image = convolve!(Image(Float64, 15, 17), psf, galaxy, 7.3, 9.1; flux = 3)
+    @test image.pixels ≈ draw(psf, 15, 17; x = 7.3, y = 9.1, flux = 6).pixels
+    @test record(image).applied == [:pixel_response]
+    @test status_of(() -> convolve!(image, psf, draw(psf, 5, 5), 7, 9)) ==
+          LibWfpsf.WFPSF_ERROR_ALREADY_APPLIED
+    other = Image(Float64, 15, 17; oversampling = 3)
+    @test status_of(() -> convolve!(other, psf, galaxy, 7, 9)) == LibWfpsf.WFPSF_ERROR_ARGUMENT
+end
+
+@testset "pupil" begin
+    # The pupil as a mask gives the PSF by other means.
+    instrument = Instrument()
+    drawn = Wfpsf.pupil(instrument, "J129", 7, 300, 256)
+    @test all(0 .<= drawn.mask.pixels .<= 1)
+    @test sum(drawn.mask.pixels) * drawn.scale_m^2 ≈ psf.lit_area_m2
+    by_mask = PSF(instrument, 7, 1292, drawn.mask; mask_scale_m = drawn.scale_m,
+                  axis_x = drawn.axis_x, axis_y = drawn.axis_y, eps = 1e-6)
+    by_geometry = PSF(instrument, 7, 1292; eps = 1e-6)
+    @test draw(by_mask, 9, 9).pixels ≈ draw(by_geometry, 9, 9).pixels rtol = 1e-3
+    @test status_of(() -> Wfpsf.pupil(instrument, "J129", 0, 9, 9)) == LibWfpsf.WFPSF_ERROR_RANGE
+end
+
 @testset "mask" begin
     # The bare annulus as squares. Under a strong defocus, an axis that is a pixel off shifts the
     # PSF.

@@ -22,8 +22,8 @@ function status_of(call)
 end
 
 @testset "Wfpsf" begin
-    @testset "$subject" for subject in ("handle", "options", "instrument", "design", "image", "interleave",
-                                        "psf", "ipc", "moments", "size")
+    @testset "$subject" for subject in ("handle", "options", "instrument", "design", "image",
+                                        "interleave", "psf", "otf", "ipc", "moments", "size")
         include("$subject.jl")
     end
 end

@@ -11,7 +11,7 @@
 #ifndef WFPSF_INSTRUMENT_H
 #define WFPSF_INSTRUMENT_H
 
-#include <wfpsf/status.h>
+#include <wfpsf/image.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -99,6 +99,28 @@ WFPSF_EXPORT wfpsf_status wfpsf_instrument_throughput(const wfpsf_instrument *in
 WFPSF_EXPORT wfpsf_status wfpsf_instrument_zernikes(const wfpsf_instrument *instrument, int32_t sca,
                                                     int64_t capacity, double *coefficients,
                                                     int64_t *count);
+
+/**
+ * A pupil as an image: every pixel the lit fraction of its area, to 1e-8. The pupil stands in the
+ * middle of the image and fills its shorter side. Handed to wfpsf_psf_create_from_mask(), it gives
+ * the PSF by other means than the pupil's geometry does, with an error that falls as the square of
+ * the pixel.
+ *
+ * Roman's pupils are those of the exit pupil, y up, as published; C5's as its mask is.
+ *
+ * Given:    band            such as "J129"
+ *           sca             1..n_sca
+ *           options         STRUTS
+ * Returned: out             transmissions 0..1, overwritten; the record is left alone
+ *           scale_m         side of a pixel, metres
+ *           axis_x, axis_y  where the optical axis is, pixels, the first one's centre at (0, 0)
+ * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME, ERROR_RANGE, ERROR_SIZE (an empty image),
+ *           ERROR_NO_MEMORY
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_instrument_pupil(const wfpsf_instrument *instrument,
+                                                 const char *band, int32_t sca,
+                                                 const wfpsf_options *options, wfpsf_image *out,
+                                                 double *scale_m, double *axis_x, double *axis_y);
 
 #ifdef __cplusplus
 }

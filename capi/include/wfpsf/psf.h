@@ -182,6 +182,35 @@ WFPSF_EXPORT wfpsf_status wfpsf_psf_add_stars(const wfpsf_psf *psf, int64_t coun
                                               const wfpsf_options *options, wfpsf_image *image);
 
 /**
+ * Draws an extended source, overwriting the image: the source's own image convolved with the
+ * effective PSF,
+ *
+ *     image(p) = flux * sum over the samples q of galaxy(q) PSF(p - q),
+ *
+ * which is what wfpsf_psf_draw() would give for a star of flux * galaxy(q) at every sample, added
+ * up. Nothing wraps around: light that leaves the image is lost. The numerical error is the PSF's;
+ * how well N samples a native pixel describe the source is the caller's choice. The PSF is needed
+ * from every sample to every pixel; where that is farther than its RADIUS, each call makes a new
+ * field, which takes most of the time.
+ *
+ * Given:    galaxy   flux of each sample, all finite; its oversampling N is a multiple of the
+ *                    image's. Its record may hold no effect (the pixel response comes with the
+ *                    PSF), and a pixel scale, if it states one, that is the PSF's
+ *           x, y     where the centre of `galaxy`, ((nx-1)/2, (ny-1)/2) of it, falls: pixels of the
+ *                    image, the first pixel's centre at (0, 0)
+ *           flux     multiplies the samples; finite
+ *           options  FORCE
+ * Returned: image    pixels and record, as by wfpsf_psf_draw(); shares no memory with galaxy
+ * Status:   ERROR_NULL, ERROR_NOT_FINITE, ERROR_ARGUMENT (N is no multiple, another pixel scale),
+ *           ERROR_ALREADY_APPLIED, ERROR_OVERLAP, ERROR_RANGE (more than 4096 native pixels apart),
+ *           ERROR_SIZE (galaxy and image together have more than 8192 samples a side),
+ *           ERROR_NO_MEMORY; the image is then as it was
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_psf_convolve(const wfpsf_psf *psf, const wfpsf_image *galaxy,
+                                             double x, double y, double flux,
+                                             const wfpsf_options *options, wfpsf_image *image);
+
+/**
  * One property of a PSF.
  *
  * Given:    key    WFPSF_PSF_*

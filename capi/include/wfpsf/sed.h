@@ -83,8 +83,8 @@ WFPSF_EXPORT void wfpsf_sed_destroy(wfpsf_sed *sed);
  * Returned: photons        count numbers
  * Status:   ERROR_NULL, ERROR_SIZE, ERROR_RANGE, ERROR_NOT_FINITE
  */
-WFPSF_EXPORT wfpsf_status wfpsf_sed_photons(const wfpsf_sed *sed, int64_t count,
-                                            const double *wavelength_nm, double *photons);
+WFPSF_EXPORT wfpsf_status wfpsf_sed_photon_density(const wfpsf_sed *sed, int64_t count,
+                                                   const double *wavelength_nm, double *photons);
 
 #ifdef __cplusplus
 }

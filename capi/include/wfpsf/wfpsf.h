@@ -12,6 +12,7 @@
 #include <wfpsf/ipc.h>
 #include <wfpsf/moments.h>
 #include <wfpsf/options.h>
+#include <wfpsf/otf.h>
 #include <wfpsf/psf.h>
 #include <wfpsf/sed.h>
 #include <wfpsf/size.h>
