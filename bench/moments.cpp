@@ -24,7 +24,7 @@ Plane<double> star(int64_t n, int64_t N) {
                   Wavefront({}, 1.18), {wavelength, pixel_scale, 1e-11, 16});
     Plane<double> image(n, n);
     const double centre = static_cast<double>(n - 1) / 2 + 0.3;
-    psf.draw(centre, centre, 1, N, image.view());
+    psf.draw({centre, centre, 1}, N, image.view());
     return image;
 }
 

@@ -55,7 +55,7 @@ Psf make_psf(double eps, double reach = radius) {
 double draw_error(const Psf &psf, const oracle::Intensity &truth, int64_t n, int64_t oversampling) {
     const double star = static_cast<double>(n - 1) / 2 + 0.23;
     Plane<double> image(n, n);
-    psf.draw(star, star, 1, oversampling, image.view());
+    psf.draw({star, star, 1}, oversampling, image.view());
     const auto scale = static_cast<double>(oversampling);
     double peak = 0, worst = 0;
     for (int64_t y = 0; y < n; ++y)
@@ -117,7 +117,7 @@ Case draw_case(const char *name, double eps, int64_t n, int64_t oversampling, do
                     std::optional<Psf> fresh;
                     if (with_model)
                         fresh = make_psf(eps, reach + 0.5);
-                    (fresh ? *fresh : psf).draw(star, star, 1, oversampling, image.view());
+                    (fresh ? *fresh : psf).draw({star, star, 1}, oversampling, image.view());
                 });
                 m.error = draw_error(psf, c5_truth(), n, oversampling);
                 return m;

@@ -68,8 +68,8 @@ std::shared_ptr<const OpdMap> opd_map(const wfpsf_options *options);
 void check_pupil_sampling(const char *scale_name, double scale_m, double axis_x, double axis_y);
 Plane<double> copy_of(const wfpsf_image &image);
 
-// The caller's progress function; one that does nothing if there is none.
-Progress progress_of(const wfpsf_options *options);
+// The caller's progress function and the limit of memory.
+Manners manners_of(const wfpsf_options *options);
 
 // The pupil that an SCA sees through a band, or the bare annulus: STRUTS.
 std::unique_ptr<const Aperture> make_aperture_of(const Instrument &instrument, int32_t sca,

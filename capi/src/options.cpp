@@ -87,12 +87,13 @@ const std::vector<double> &extra_zernikes(const wfpsf_options *options) {
     return options ? options->zernikes : none;
 }
 
-Progress progress_of(const wfpsf_options *options) {
-    if (!options || !options->progress)
-        return {};
-    return {[call = options->progress, user = options->progress_user](double part) {
-        return call(part, user) == 0;
-    }};
+Manners manners_of(const wfpsf_options *options) {
+    Manners manners;
+    manners.memory_limit = static_cast<int64_t>(option(options, WFPSF_OPTION_MEMORY_LIMIT));
+    if (options && options->progress)
+        manners.progress.go_on = [call = options->progress, user = options->progress_user](
+                                     double part) { return call(part, user) == 0; };
+    return manners;
 }
 
 std::shared_ptr<const OpdMap> opd_map(const wfpsf_options *options) {

@@ -75,12 +75,11 @@ PsfSettings make_settings(const Instrument &instrument, bool mirrored,
 }
 
 // OK, or the warning that the error estimate does not meet EPS.
-wfpsf_status certify(const Psf &psf) {
-    if (psf.error_estimate() <= psf.settings().eps)
+wfpsf_status certify(double estimate, double eps) {
+    if (estimate <= eps)
         return WFPSF_OK;
     char line[128];
-    std::snprintf(line, sizeof line, "EPS = %g: the error estimate is %g", psf.settings().eps,
-                  psf.error_estimate());
+    std::snprintf(line, sizeof line, "EPS = %g: the error estimate is %g", eps, estimate);
     return record_error(WFPSF_WARNING_NOT_CERTIFIED, line);
 }
 
@@ -93,12 +92,13 @@ wfpsf_status create(const Instrument &instrument, std::span<const double> aberra
     const PsfSettings settings = make_settings(instrument, mirrored, options);
     const Wavefront wavefront = make_wavefront(instrument, aberrations, options);
     std::vector<Psf> psfs =
-        make_psfs({make(), wavefront, settings.wavelength}, lights, settings, progress_of(options));
+        make_psfs({make(), wavefront, settings.wavelength}, lights, settings, manners_of(options));
     std::vector<std::unique_ptr<wfpsf_psf>> handles;
     wfpsf_status status = WFPSF_OK;
     for (size_t i = 0; i < psfs.size(); ++i) {
         const double wavelength_nm = lights[i](0).mean_wavelength() * 1e9;
-        if (const wfpsf_status certified = certify(psfs[i]); certified != WFPSF_OK)
+        if (const wfpsf_status certified = certify(psfs[i].error_estimate(), settings.eps);
+            certified != WFPSF_OK)
             status = certified;
         handles.push_back(std::make_unique<wfpsf_psf>(
             wfpsf_psf{std::move(psfs[i]), wavelength_nm, instrument.pixel_scale_arcsec()}));
@@ -225,20 +225,78 @@ void wfpsf_psf_destroy(wfpsf_psf *psf) {
     delete psf;
 }
 
+namespace {
+
+Star checked_star(double x, double y, double flux) {
+    require_finite(x, "x");
+    require_finite(y, "y");
+    require_finite(flux, "flux");
+    return {x, y, flux};
+}
+
+// Light is added before what the detector does to it.
+void require_light(const wfpsf_psf &psf, const Image &image, const wfpsf_options *options) {
+    for (const Effect later : {Effect::ipc, Effect::ipc_correction})
+        image.require_not_applied(later, flag(options, WFPSF_OPTION_FORCE));
+    require_scale(psf, image, "image");
+}
+
+void record_light(const wfpsf_psf &psf, Image &image) {
+    image.set_pixel_scale_arcsec(psf.pixel_scale_arcsec);
+    image.record_applied(Effect::pixel_response);
+}
+
+wfpsf_status draw(const wfpsf_psf &psf, const Star &star, Psf::Drawing drawing,
+                  const wfpsf_options *options, Image &image) {
+    const double error = std::visit(
+        [&](auto pixels) {
+            return psf.psf.draw(star, image.oversampling(), pixels, drawing, manners_of(options));
+        },
+        image.pixels());
+    return certify(error, psf.psf.settings().eps);
+}
+
+} // namespace
+
 wfpsf_status wfpsf_psf_draw(const wfpsf_psf *psf, double x, double y, double flux,
-                            wfpsf_image *image) {
+                            const wfpsf_options *options, wfpsf_image *image) {
     return guarded([&] {
         require_pointer(psf, "psf");
         require_pointer(image, "image");
-        require_finite(x, "x");
-        require_finite(y, "y");
-        require_finite(flux, "flux");
-        std::visit(
-            [&](auto pixels) { psf->psf.draw(x, y, flux, image->image.oversampling(), pixels); },
-            image->image.pixels());
-        image->image.set_pixel_scale_arcsec(psf->pixel_scale_arcsec);
+        const wfpsf_status status =
+            draw(*psf, checked_star(x, y, flux), Psf::Drawing::overwrites, options, image->image);
         image->image.set_applied(0);
-        image->image.record_applied(Effect::pixel_response);
+        record_light(*psf, image->image);
+        return status;
+    });
+}
+
+wfpsf_status wfpsf_psf_add_bright_star(const wfpsf_psf *psf, double x, double y, double flux,
+                                       const wfpsf_options *options, wfpsf_image *image) {
+    return guarded([&] {
+        require_pointer(psf, "psf");
+        require_pointer(image, "image");
+        require_light(*psf, image->image, options);
+        const wfpsf_status status =
+            draw(*psf, checked_star(x, y, flux), Psf::Drawing::adds, options, image->image);
+        record_light(*psf, image->image);
+        return status;
+    });
+}
+
+wfpsf_status wfpsf_psf_draw_memory(const wfpsf_psf *psf, double x, double y,
+                                   const wfpsf_image *image, int64_t *least, int64_t *most) {
+    return guarded([&] {
+        require_pointer(psf, "psf");
+        require_pointer(image, "image");
+        const Star star = checked_star(x, y, 1);
+        const Image &target = image->image;
+        const auto [smallest, largest] =
+            psf->psf.draw_memory(star, target.oversampling(), target.nx(), target.ny());
+        if (least)
+            *least = smallest;
+        if (most)
+            *most = largest;
     });
 }
 
@@ -256,9 +314,7 @@ wfpsf_status wfpsf_psf_add_stars(const wfpsf_psf *psf, int64_t count, const doub
             require_pointer(flux, "flux");
         }
         Image &target = image->image;
-        for (const Effect later : {Effect::ipc, Effect::ipc_correction})
-            target.require_not_applied(later, flag(options, WFPSF_OPTION_FORCE));
-        require_scale(*psf, target, "image");
+        require_light(*psf, target, options);
         std::vector<Star> stars;
         for (int64_t i = 0; i < count; ++i) {
             for (const auto &[name, value] :
@@ -272,8 +328,7 @@ wfpsf_status wfpsf_psf_add_stars(const wfpsf_psf *psf, int64_t count, const doub
         std::visit(
             [&](auto pixels) { psf->psf.add(stars, target.oversampling(), pixels, threads); },
             target.pixels());
-        target.set_pixel_scale_arcsec(psf->pixel_scale_arcsec);
-        target.record_applied(Effect::pixel_response);
+        record_light(*psf, target);
     });
 }
 

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How long work tells its caller how far it is, and is told to stop.
+// How long work tells its caller how far it is and is told to stop, and how much memory it may
+// take.
 #pragma once
 
 #include "error/error.hpp"
 
+#include <cstdint>
 #include <functional>
+#include <limits>
 
 namespace wfpsf {
 
@@ -23,6 +26,19 @@ struct Progress {
         if (!go_on)
             return {};
         return {[this, from, to](double part) { return go_on(from + part * (to - from)); }};
+    }
+};
+
+// How work of any length is to be done.
+struct Manners {
+    Progress progress = {};
+    int64_t memory_limit = std::numeric_limits<int64_t>::max(); // bytes, beside the caller's own
+
+    // What needs more memory than that is not begun.
+    void require_memory(int64_t bytes, const char *work) const {
+        if (bytes > memory_limit)
+            fail(WFPSF_ERROR_MEMORY_LIMIT, "MEMORY_LIMIT = %lld: %s takes %lld bytes",
+                 static_cast<long long>(memory_limit), work, static_cast<long long>(bytes));
     }
 };
 

@@ -207,6 +207,14 @@ Type1Transform::Type1Transform(Band a, Band b, int64_t K, double eps)
       stride_((x_.used + batch - 1) / batch * batch),
       cells_(static_cast<size_t>(stride_ * y_.used + batch)) {}
 
+Type1Transform::Memory Type1Transform::memory(Band a, Band b, int64_t K, double eps) {
+    const int width = width_for(eps);
+    const Axis x(a, fine_cells(K, width), width), y(b, x.n, width);
+    const auto size = static_cast<int64_t>(sizeof(Complex));
+    // Beside the cells, the columns that are transformed together.
+    return {size * ((x.used + batch) * (y.used + 1) + x.n * (batch + 1)), size * (x.used + batch)};
+}
+
 void Type1Transform::add(std::span<const double> a, std::span<const double> b,
                          std::span<const Complex> c) {
     spread_width(width_, a, b, c, static_cast<double>(x_.n) / (2 * pi), x_.first, y_.first, stride_,

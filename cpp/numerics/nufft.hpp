@@ -27,6 +27,12 @@ class Type1Transform {
 
     Type1Transform(Band a, Band b, int64_t K, double eps);
 
+    // What a transform of these arguments holds, and what rows() takes besides for each row.
+    struct Memory {
+        int64_t held, per_row; // bytes
+    };
+    static Memory memory(Band a, Band b, int64_t K, double eps);
+
     // Every source must lie within the bands.
     void add(std::span<const double> a, std::span<const double> b,
              std::span<const std::complex<double>> c);

@@ -34,6 +34,27 @@ struct Diffraction {
     double error = 0, model_error = 0;
 };
 
+// The same for a grid too large to hold: |A|^2 is made a strip of rows at a time.
+class DiffractionStrips {
+  public:
+    virtual ~DiffractionStrips() = default;
+
+    // Rows first..first+count-1 of the grid.
+    virtual Plane<double> rows(int64_t first, int64_t count) const = 0;
+
+    int64_t nodes() const { return nodes_; }
+    double error() const { return error_; } // as in Diffraction
+
+  protected:
+    int64_t nodes_ = 0;
+    double error_ = 0;
+};
+
+// Bytes that strips take: always, and for each row of a strip.
+struct StripMemory {
+    int64_t fixed, per_row;
+};
+
 class Aperture {
   public:
     virtual ~Aperture() = default;
@@ -41,6 +62,12 @@ class Aperture {
     // |A|^2 good to about `eps` of area^2, the peak of the unaberrated PSF.
     virtual Diffraction diffract(const Wavefront &wavefront, double wavelength,
                                  const FocalGrid &grid, double eps) const = 0;
+    virtual std::unique_ptr<const DiffractionStrips> diffract_in_strips(const Wavefront &wavefront,
+                                                                        double wavelength,
+                                                                        const FocalGrid &grid,
+                                                                        double eps) const = 0;
+    virtual StripMemory strip_memory(double wavelength, const FocalGrid &grid,
+                                     double eps) const = 0;
 
     // The pupil drawn on nx by ny square pixels, or a mask's own pixels, however many.
     virtual PupilRaster raster(int64_t nx, int64_t ny) const = 0;

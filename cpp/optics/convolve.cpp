@@ -123,7 +123,7 @@ void convolve(const Psf &psf, const Source<S> &source, int64_t oversampling, Vie
         return static_cast<double>(step) * position + static_cast<double>(size - 1) / 2;
     };
     const auto finer = static_cast<double>(step * step);
-    psf.draw(place(source.x, samples.nx()), place(source.y, samples.ny()), finer,
+    psf.draw({place(source.x, samples.nx()), place(source.y, samples.ny()), finer},
              source.oversampling, stamp.view());
 
     const auto store = [&](int64_t x, int64_t y, double sum) {

@@ -1,160 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "optics/field.hpp"
 
-#include "numerics/quadrature.hpp"
-#include "optics/resample.hpp"
+#include "optics/colours.hpp"
+#include "optics/image_maker.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <complex>
 #include <numbers>
 
 namespace wfpsf {
 
 namespace {
-
-constexpr double pi = std::numbers::pi;
-
-// The intensity holds no frequency above diameter / wavelength. Sampling it at twice Nyquist's rate
-// or somewhat finer keeps the filters short; a whole number of samples a native pixel lets all
-// pixels of a stamp share one filter.
-constexpr double widest_band = 0.25; // cycles per sample
-
-// Wavelengths against everything else: how they share eps.
-constexpr double share_of_wavelengths = 0.5;
-
-struct Sum;
-
-// The image of one wavelength, and the field of a sum of such images.
-class ImageMaker {
-  public:
-    ImageMaker(const Optics &optics, const PsfSettings &settings, double shortest_wavelength,
-               double radius, double tolerance)
-        : optics_(optics), settings_(settings),
-          per_pixel_(
-              static_cast<int64_t>(std::ceil(optics.aperture->diameter() * settings.pixel_scale /
-                                             (widest_band * shortest_wavelength)))),
-          step_(settings.pixel_scale / static_cast<double>(per_pixel_)),
-          strength_(outline_strength(optics.aperture->outline(), optics.aperture->diameter(),
-                                     optics.aperture->area())),
-          samples_(bandwidth(shortest_wavelength), static_cast<double>(per_pixel_),
-                   optics.aperture->outline(),
-                   (settings.blur.none() ? 0.8 : 0.4) * tolerance / strength_),
-          filter_{{{samples_.averaging(), samples_.averaging()}}, 0}, tolerance_(0.2 * tolerance) {
-        const auto samples = static_cast<double>(per_pixel_);
-        const Covariance &blur = settings.blur;
-        if (!blur.none())
-            filter_ = blurring_filter(bandwidth(shortest_wavelength), samples,
-                                      {blur.xx * samples * samples, blur.xy * samples * samples,
-                                       blur.yy * samples * samples},
-                                      0.4 * tolerance / strength_);
-        const auto reach = static_cast<int64_t>(std::ceil(radius * samples)) +
-                           samples_.interpolator().half_width();
-        const auto margin = static_cast<int64_t>(filter_.half_width());
-        grid_ = {2 * (reach + margin) + 1, step_};
-    }
-
-    // The largest optical path difference between two parts of the pupil, as seen at a distance of
-    // so many grid samples from the axis.
-    double path(double distance) const {
-        return optics_.aperture->diameter() *
-               (distance * step_ + optics_.wavefront.slope_bound() * optics_.wavelength);
-    }
-    double longest_path() const { return path(std::numbers::sqrt2 * grid_.half()); }
-
-    // An intensity averaged over the pixel and blurred, on the axes of the image.
-    Plane<double> averaged(const Plane<double> &intensity, int64_t stride = 1) const {
-        View<const double> image = intensity.view();
-        if (settings_.mirrored)
-            image = {image.row(image.ny - 1), image.nx, image.ny, 1, -image.stride_y};
-        return filtered(image, filter_, stride);
-    }
-
-    struct Image {
-        Diffraction diffraction;
-        double scale; // intensity to the fraction of the light in a native pixel's solid angle
-        double unaberrated_peak;
-    };
-
-    Image at(double wavelength) const {
-        const double area = optics_.aperture->area();
-        const double wavelengths = settings_.pixel_scale / wavelength;
-        const double scale = wavelengths * wavelengths / area;
-        return {
-            optics_.aperture->diffract(optics_.wavefront.scaled(optics_.wavelength / wavelength),
-                                       wavelength, grid_, tolerance_),
-            scale, scale * area * area};
-    }
-
-    Field field(const Sum &sum) const;
-
-  private:
-    double bandwidth(double shortest_wavelength) const {
-        return optics_.aperture->diameter() * step_ / shortest_wavelength;
-    }
-
-    const Optics &optics_;
-    const PsfSettings &settings_;
-    int64_t per_pixel_;
-    double step_;
-    double strength_; // of the spectrum that bounds the image's
-    AveragedSamples samples_;
-    SeparableFilter filter_;
-    FocalGrid grid_{};
-    double tolerance_; // of an intensity in units of the unaberrated peak
-};
-
-// How many wavelengths the image needs at its corner, where it changes fastest with colour, and
-// nearer to the core, where it is brighter: spikes fall as the square of the radius, rings as the
-// cube. `path` is the optical path difference across the pupil at the corner.
-size_t first_guess(const Spectrum &spectrum, double path, double eps) {
-    constexpr double soft_edges = 0.82; // of a band: they let so many do
-    const auto [blue, red] = std::ranges::minmax(spectrum.wavelength);
-    int points = 3;
-    for (double part = 1; part > 0.02; part *= 0.8) {
-        const double phase = pi * part * path / blue;
-        const double tolerance = eps * (1 + phase * phase);
-        const double turns = pi * part * path * (1 / blue - 1 / red);
-        if (tolerance < 1)
-            points = std::max(points, gauss_legendre_points(turns, std::min(0.1, tolerance)));
-    }
-    return static_cast<size_t>(soft_edges * points + 0.5);
-}
-
-// What a rule's sum over a spectrum misses of a wave in 1 / wavelength, by optical path difference:
-// of any wave up to that path, since light at a distance from the axis mixes them all.
-class FringeErrors {
-  public:
-    FringeErrors(const WavelengthRule &rule, const Spectrum &spectrum, double longest_path)
-        // An eighth of a turn over half the range of 1 / wavelength.
-        : step_(1 / (8 * rule.half_range())),
-          worst_(static_cast<size_t>(longest_path / step_) + 2) {
-        std::vector<std::complex<double>> sum(worst_.size());
-        const auto add = [&](double wavelength, double weight) {
-            const std::complex<double> turn = std::polar(1.0, 2 * pi * step_ / wavelength);
-            std::complex<double> wave = weight;
-            for (std::complex<double> &s : sum) {
-                s += wave;
-                wave *= turn;
-            }
-        };
-        for (size_t i = 0; i < spectrum.size(); ++i)
-            add(spectrum.wavelength[i], spectrum.weight[i]);
-        const std::vector<double> weights = rule.weights(spectrum);
-        for (size_t k = 0; k < rule.size(); ++k)
-            add(rule.wavelengths()[k], -weights[k]);
-        for (size_t i = 1; i < sum.size(); ++i)
-            worst_[i] = std::max(worst_[i - 1], std::abs(sum[i]));
-    }
-
-    double up_to(double path) const {
-        return worst_[std::min(static_cast<size_t>(path / step_) + 1, worst_.size() - 1)];
-    }
-
-  private:
-    double step_; // of the path
-    std::vector<double> worst_;
-};
 
 // Some pixels of the images of all wavelengths, and what they tell of the rule.
 class ColourCheck {
@@ -226,34 +82,31 @@ struct Sum {
     std::vector<double> weights;
     double unaberrated_peak = 0, error = 0, model_error = 0;
 
-    void add(const ImageMaker::Image &image, double weight) {
-        const Diffraction &d = image.diffraction;
+    void add(const Diffraction &d, double scale_of_light, double peak_of_light, double weight) {
         const int64_t nx = d.intensity.nx(), ny = d.intensity.ny();
         if (intensity.nx() == 0)
             intensity = Plane<double>(nx, ny);
-        const double scale = weight * image.scale;
+        const double scale = weight * scale_of_light;
         for (int64_t y = 0; y < ny; ++y)
             for (int64_t x = 0; x < nx; ++x)
                 intensity(x, y) += scale * d.intensity(x, y);
-        const double peak = std::abs(weight) * image.unaberrated_peak;
+        const double peak = std::abs(weight) * peak_of_light;
         unaberrated_peak += peak;
         error += peak * d.error;
         model_error += peak * d.model_error;
     }
 };
 
-Field ImageMaker::field(const Sum &sum) const {
-    Field field(samples_.interpolator());
-    field.per_pixel = per_pixel_;
-    field.grid_size = grid_.size;
-    field.value = averaged(sum.intensity);
+Field field_of(const ImageMaker &maker, const Sum &sum) {
+    Field field(maker.interpolator());
+    field.per_pixel = maker.per_pixel();
+    field.grid_size = maker.grid().size;
+    field.value = maker.averaged(sum.intensity);
     for (int64_t y = 0; y < field.value.ny(); ++y)
         for (int64_t x = 0; x < field.value.nx(); ++x)
             field.peak = std::max(field.peak, field.value(x, y));
     // A stamp's brightest pixel may be half the largest possible one.
-    field.error =
-        2 / field.peak *
-        (sum.error + strength_ * sum.unaberrated_peak * (samples_.error() + filter_.error));
+    field.error = 2 / field.peak * (sum.error + sum.unaberrated_peak * maker.filter_error());
     field.model_error = 2 / field.peak * sum.model_error;
     return field;
 }
@@ -272,17 +125,19 @@ Attempt attempt(const ImageMaker &maker, const WavelengthRule &rule,
     int64_t nodes = 0;
     for (size_t k = 0; k < rule.size(); ++k) {
         progress.report(static_cast<double>(k) / static_cast<double>(rule.size()));
-        const ImageMaker::Image image = maker.at(rule.wavelengths()[k]);
+        const double wavelength = rule.wavelengths()[k];
+        const Diffraction image = maker.diffract(wavelength);
         if (!rule.exact())
-            check.see(maker.averaged(image.diffraction.intensity, ColourCheck::stride),
-                      image.scale);
-        nodes += image.diffraction.nodes;
+            check.see(maker.averaged(image.intensity, ColourCheck::stride),
+                      maker.scale(wavelength));
+        nodes += image.nodes;
         for (Sum &sum : sums)
-            sum.add(image, sum.weights[k]);
+            sum.add(image, maker.scale(wavelength), maker.unaberrated_peak(wavelength),
+                    sum.weights[k]);
     }
     Attempt result;
     for (size_t s = 0; s < spectra.size(); ++s) {
-        Field &field = result.fields.emplace_back(maker.field(sums[s]));
+        Field &field = result.fields.emplace_back(field_of(maker, sums[s]));
         field.nodes = nodes;
         for (size_t k = 0; k < rule.size(); ++k)
             field.colours.push_back({rule.wavelengths()[k], sums[s].weights[k]});
@@ -300,8 +155,7 @@ Attempt attempt(const ImageMaker &maker, const WavelengthRule &rule,
 // stamp's brightest pixel. Their ratio is guessed, and made up for where the guess was too good (an
 // aberrated wavefront): once more is the rule, several times for the hardest ones.
 std::vector<Field> make_fields(const Optics &optics, std::span<const Light> lights,
-                               const PsfSettings &settings, double radius,
-                               const Progress &progress) {
+                               const PsfSettings &settings, double radius, const Manners &manners) {
     const auto colours = [&lights](double path) {
         std::vector<Spectrum> spectra;
         for (const Light &light : lights)
@@ -312,18 +166,18 @@ std::vector<Field> make_fields(const Optics &optics, std::span<const Light> ligh
     const double blue = std::ranges::min(all.wavelength);
     const double pixel = settings.pixel_scale / blue;
     const double ratio = 2 * (1 + 1.7 * optics.aperture->area() * pixel * pixel);
-    const double for_colour = all.size() > 1 ? share_of_wavelengths * settings.eps : 0;
-    const double for_the_rest = settings.eps - for_colour;
+    const auto [for_colour, for_the_rest] = shares_of(settings.eps, all);
     double tolerance = for_the_rest / ratio;
     size_t n = 0;
     for (int count = 0;; ++count) {
         const ImageMaker maker(optics, settings, blue, radius, tolerance);
+        manners.require_memory(maker.memory(lights.size()), "a field of that radius");
         const std::vector<Spectrum> spectra = colours(maker.longest_path());
         all = together(spectra);
         if (n == 0)
-            n = first_guess(all, maker.longest_path(), for_colour);
+            n = wavelengths_for(all, maker.longest_path(), for_colour);
         const WavelengthRule rule(all, n);
-        Attempt made = attempt(maker, rule, spectra, progress);
+        Attempt made = attempt(maker, rule, spectra, manners.progress);
         const bool good = made.error <= for_the_rest && made.colour_error <= for_colour;
         if (good || count == 4 || tolerance < 1e-15)
             return std::move(made.fields);

@@ -58,6 +58,6 @@ struct Field {
 // Wavelengths are added until the estimate meets settings.eps, or it is clear that it cannot.
 std::vector<Field> make_fields(const Optics &optics, std::span<const Light> lights,
                                const PsfSettings &settings, double radius,
-                               const Progress &progress = {});
+                               const Manners &manners = {});
 
 } // namespace wfpsf

@@ -55,40 +55,76 @@ struct Quadrature {
     double wavenumber, eps; // of pupil_nodes()
 };
 
-// The intensity on the whole grid, by a nonuniform FFT.
-template <class Pupil>
-Diffraction transform(const Pupil &pupil, const Wavefront &wavefront, double wavelength,
-                      const FocalGrid &grid, const Quadrature &quadrature, double eps) {
-    const double turn = 2 * pi / wavelength * grid.step;
-    const Box box = bounds(pupil);
-    Type1Transform nufft({turn * box.x0, turn * box.x1}, {turn * box.y0, turn * box.y1},
-                         (grid.size - 1) / 2, eps);
-    Diffraction out;
-    Sources sources;
-    std::vector<double> a, b;
-    std::vector<Complex> c;
-    pupil_nodes(pupil, quadrature.wavenumber, quadrature.eps, [&](const PupilNodes &nodes) {
-        sources.take(nodes, wavefront);
-        a.resize(nodes.size());
-        b.resize(nodes.size());
-        c.resize(nodes.size());
-        for (size_t n = 0; n < nodes.size(); ++n) {
-            a[n] = turn * nodes.x[n];
-            b[n] = turn * nodes.y[n];
-            c[n] = {sources.re[n], sources.im[n]};
-        }
-        nufft.add(a, b, c);
-        out.nodes += static_cast<int64_t>(nodes.size());
-    });
-    out.intensity = Plane<double>(grid.size, grid.size);
-    const int64_t middle = (grid.size - 1) / 2;
-    nufft.rows(-middle, middle, [&](int64_t jy, std::span<const Complex> modes) {
-        double *row = out.intensity.view().row(jy + middle);
-        for (size_t x = 0; x < modes.size(); ++x)
-            row[x] = std::norm(modes[x]);
-    });
-    return out;
-}
+// Where a pupil's sources stand for the transform to a grid.
+struct Bands {
+    double turn; // per metre of the pupil and step of the grid
+    Type1Transform::Band x, y;
+    int64_t modes; // K
+    Bands(const Box &box, double wavelength, const FocalGrid &grid)
+        : turn(2 * pi / wavelength * grid.step), x{turn * box.x0, turn * box.x1}, y{turn * box.y0,
+                                                                                    turn * box.y1},
+          modes((grid.size - 1) / 2) {}
+};
+
+// The amplitude on a grid, by a nonuniform FFT: made of the nodes once, then asked for its rows.
+class Transform {
+  public:
+    template <class Pupil>
+    Transform(const Pupil &pupil, const Wavefront &wavefront, double wavelength,
+              const FocalGrid &grid, const Quadrature &quadrature, double eps)
+        : bands_(bounds(pupil), wavelength, grid), nufft_(bands_.x, bands_.y, bands_.modes, eps) {
+        Sources sources;
+        std::vector<double> a, b;
+        std::vector<Complex> c;
+        pupil_nodes(pupil, quadrature.wavenumber, quadrature.eps, [&](const PupilNodes &nodes) {
+            sources.take(nodes, wavefront);
+            a.resize(nodes.size());
+            b.resize(nodes.size());
+            c.resize(nodes.size());
+            for (size_t n = 0; n < nodes.size(); ++n) {
+                a[n] = bands_.turn * nodes.x[n];
+                b[n] = bands_.turn * nodes.y[n];
+                c[n] = {sources.re[n], sources.im[n]};
+            }
+            nufft_.add(a, b, c);
+            nodes_ += static_cast<int64_t>(nodes.size());
+        });
+    }
+
+    int64_t nodes() const { return nodes_; }
+
+    // |A|^2 in rows first..first+count-1 of the grid.
+    Plane<double> intensity(int64_t first, int64_t count) const {
+        Plane<double> out(2 * bands_.modes + 1, count);
+        const int64_t origin = first - bands_.modes;
+        nufft_.rows(origin, origin + count - 1,
+                    [&](int64_t jy, std::span<const Complex> amplitude) {
+                        double *row = out.view().row(jy - origin);
+                        for (size_t x = 0; x < amplitude.size(); ++x)
+                            row[x] = std::norm(amplitude[x]);
+                    });
+        return out;
+    }
+
+  private:
+    Bands bands_;
+    Type1Transform nufft_;
+    int64_t nodes_ = 0;
+};
+
+class GeometricStrips final : public DiffractionStrips {
+  public:
+    GeometricStrips(Transform transform, double error) : transform_(std::move(transform)) {
+        nodes_ = transform_.nodes();
+        error_ = error;
+    }
+    Plane<double> rows(int64_t first, int64_t count) const override {
+        return transform_.intensity(first, count);
+    }
+
+  private:
+    Transform transform_;
+};
 
 // Grid indices on each axis at which an intensity is checked, all pairs of them: errors of the
 // quadrature grow outwards, those of the transform are largest where there is most light.
@@ -160,6 +196,56 @@ template <class Pupil> class GeometricAperture final : public Aperture {
 
     Diffraction diffract(const Wavefront &wavefront, double wavelength, const FocalGrid &grid,
                          double eps) const override {
+        Diffraction out;
+        out.model_error = fit_error_;
+        refine(wavefront, wavelength, grid, eps,
+               [&](const Quadrature &own, const Quadrature &finer, double asked) {
+                   const Transform transform(pupil_, wavefront, wavelength, grid, own, asked);
+                   out.intensity = transform.intensity(0, grid.size);
+                   out.nodes = transform.nodes();
+                   out.error = error(out.intensity.view(), wavefront, wavelength, grid, own, finer);
+                   return out.error;
+               });
+        return out;
+    }
+
+    // The transform is trusted by its own bound, since its rows are not at hand.
+    std::unique_ptr<const DiffractionStrips> diffract_in_strips(const Wavefront &wavefront,
+                                                                double wavelength,
+                                                                const FocalGrid &grid,
+                                                                double eps) const override {
+        const double transform_eps = strip_share * eps;
+        Quadrature best{};
+        double error = 0;
+        refine(wavefront, wavelength, grid, (1 - 4 * strip_share) * eps,
+               [&](const Quadrature &own, const Quadrature &finer, double) {
+                   best = own;
+                   return error = quadrature_error(wavefront, wavelength, grid, own, finer);
+               });
+        return std::make_unique<GeometricStrips>(
+            Transform(pupil_, wavefront, wavelength, grid, best, transform_eps),
+            error + 2 * std::max(transform_eps, nufft_best_eps));
+    }
+
+    StripMemory strip_memory(double wavelength, const FocalGrid &grid, double eps) const override {
+        const Bands bands(bounds(pupil_), wavelength, grid);
+        const auto [held, per_row] =
+            Type1Transform::memory(bands.x, bands.y, bands.modes, strip_share * eps);
+        return {held, per_row + grid.size * static_cast<int64_t>(sizeof(double))};
+    }
+
+    PupilRaster raster(int64_t nx, int64_t ny) const override {
+        return wfpsf::raster(parts_, nx, ny);
+    }
+
+  private:
+    static constexpr double strip_share = 0.1; // of eps, for a strip's transform
+
+    // Attempts with ever better quadratures, until the error that one returns meets eps, or no
+    // attempt can.
+    template <class Attempt>
+    void refine(const Wavefront &wavefront, double wavelength, const FocalGrid &grid, double eps,
+                const Attempt &attempt) const {
         // The fastest wave over the pupil: the grid's corner, plus the wavefront's own slope.
         const double of_grid = 2 * pi * std::numbers::sqrt2 * grid.largest_angle() / wavelength;
         double wavenumber = of_grid + 2 * pi * wavefront.slope_bound();
@@ -176,25 +262,33 @@ template <class Pupil> class GeometricAperture final : public Aperture {
         for (double asked = eps;;) {
             const Quadrature own{wavenumber, std::min(0.1, 30 * asked)};
             const Quadrature finer{(rough ? 1.3 : 1) * wavenumber, own.eps * 1e-2};
-            Diffraction out = transform(pupil_, wavefront, wavelength, grid, own, asked);
-            out.error = error(out.intensity.view(), wavefront, wavelength, grid, own, finer);
-            out.model_error = fit_error_;
-            const bool stuck = rough && out.error > before / 3;
-            if (out.error <= eps || asked < 1e-18 || (stuck && wavenumber >= densest))
-                return out;
+            const double error = attempt(own, finer, asked);
+            const bool stuck = rough && error > before / 3;
+            if (error <= eps || asked < 1e-18 || (stuck && wavenumber >= densest))
+                return;
             if (stuck)
                 wavenumber = std::min(1.5 * wavenumber, densest);
             else
-                asked *= std::clamp(eps / out.error, 1e-3, 0.3);
-            before = out.error;
+                asked *= std::clamp(eps / error, 1e-3, 0.3);
+            before = error;
         }
     }
 
-    PupilRaster raster(int64_t nx, int64_t ny) const override {
-        return wfpsf::raster(parts_, nx, ny);
+    // Four times the largest difference of |A|^2 at the probes between two quadratures.
+    double quadrature_error(const Wavefront &wavefront, double wavelength, const FocalGrid &grid,
+                            const Quadrature &own, const Quadrature &finer) const {
+        const auto mine = at_probes(wavefront, wavelength, grid, own);
+        const auto truth = at_probes(wavefront, wavelength, grid, finer);
+        double worst = 0;
+        for (size_t p = 0; p < truth.size(); ++p) {
+            const double off = std::abs(mine[p] - truth[p]);
+            worst = std::max(worst, wavefront.has_map()
+                                        ? (2 * area_ + off) * off
+                                        : std::abs(std::norm(mine[p]) - std::norm(truth[p])));
+        }
+        return 4 * worst / (area_ * area_) + rounding;
     }
 
-  private:
     // The amplitude at the probes, by a plain sum.
     std::array<Complex, per_axis * per_axis> at_probes(const Wavefront &wavefront,
                                                        double wavelength, const FocalGrid &grid,

@@ -20,20 +20,76 @@ constexpr double rounding = 1e-13; // of |A|^2 in units of area^2: sums of 10^4 
 using Complex = std::complex<double>;
 using Matrix = Eigen::MatrixXcd;
 
-// exp(i k u angle_j) on the grid (rows) at every coordinate u (columns), by repeated
-// multiplication, started afresh every 32 steps.
-Matrix waves(const FocalGrid &grid, const double *u, int64_t count, double k) {
-    Matrix out(grid.size, count);
+// exp(i k u angle_j) for j = first.. of the grid (rows) at every coordinate u (columns), by
+// repeated multiplication, started afresh every 32 steps.
+Matrix waves(const FocalGrid &grid, int64_t first, int64_t rows, const double *u, int64_t count,
+             double k) {
+    Matrix out(rows, count);
     for (int64_t n = 0; n < count; ++n) {
         const Complex turn = std::polar(1.0, k * u[n] * grid.step);
         Complex wave;
-        for (int64_t j = 0; j < grid.size; ++j) {
-            wave = j % 32 == 0 ? std::polar(1.0, k * u[n] * grid.angle(j)) : wave * turn;
+        for (int64_t j = 0; j < rows; ++j) {
+            wave = j % 32 == 0 ? std::polar(1.0, k * u[n] * grid.angle(first + j)) : wave * turn;
             out(j, n) = wave;
         }
     }
     return out;
 }
+
+// The transform along x of all of the mask's lines, to be transformed along y as rows are asked
+// for.
+class MaskStrips final : public DiffractionStrips {
+  public:
+    // u, v: the mask's pixel centres, m.
+    MaskStrips(const Plane<double> &lit, const std::vector<double> &u, const std::vector<double> &v,
+               double scale, const Wavefront &wavefront, double wavelength, const FocalGrid &grid)
+        : v_(v), scale_(scale), k_(2 * pi / wavelength), grid_(grid), lines_(grid.size, lit.ny()) {
+        nodes_ = lit.nx() * lit.ny();
+        error_ = rounding;
+        constexpr int64_t block = 128;
+        const Matrix along_x = waves(grid, 0, grid.size, u.data(), lit.nx(), k_);
+        for (int64_t first = 0; first < lit.ny(); first += block) {
+            const int64_t count = std::min(block, lit.ny() - first);
+            Matrix field(lit.nx(), count);
+            for (int64_t y = 0; y < count; ++y)
+                for (int64_t x = 0; x < lit.nx(); ++x) {
+                    const double transmission = lit(x, first + y);
+                    field(x, y) =
+                        transmission == 0
+                            ? Complex(0)
+                            : std::polar(transmission,
+                                         2 * pi *
+                                             wavefront(u[static_cast<size_t>(x)],
+                                                       v[static_cast<size_t>(first + y)]));
+                }
+            lines_.middleCols(first, count).noalias() = along_x * field;
+        }
+    }
+
+    Plane<double> rows(int64_t first, int64_t count) const override {
+        const Matrix along_y =
+            waves(grid_, first, count, v_.data(), static_cast<int64_t>(v_.size()), k_);
+        const Matrix amplitude = lines_ * along_y.transpose();
+        Plane<double> intensity(grid_.size, count);
+        for (int64_t y = 0; y < count; ++y)
+            for (int64_t x = 0; x < grid_.size; ++x)
+                intensity(x, y) = std::norm(amplitude(x, y) * square(k_ * grid_.angle(x)) *
+                                            square(k_ * grid_.angle(first + y)));
+        return intensity;
+    }
+
+  private:
+    // The transform of one pixel's side.
+    double square(double k) const {
+        const double half = k * scale_ / 2;
+        return half == 0 ? scale_ : scale_ * std::sin(half) / half;
+    }
+
+    std::vector<double> v_;
+    double scale_, k_;
+    FocalGrid grid_;
+    Matrix lines_; // (x of the grid, line of the mask)
+};
 
 class MaskAperture final : public Aperture {
   public:
@@ -71,36 +127,23 @@ class MaskAperture final : public Aperture {
     }
 
     Diffraction diffract(const Wavefront &wavefront, double wavelength, const FocalGrid &grid,
-                         double) const override {
-        constexpr int64_t rows = 128;
-        const double k = 2 * pi / wavelength;
-        const Matrix along_x = waves(grid, u_.data(), lit_.nx(), k);
-        Matrix sum = Matrix::Zero(grid.size, grid.size);
-        for (int64_t first = 0; first < lit_.ny(); first += rows) {
-            const int64_t count = std::min(rows, lit_.ny() - first);
-            Matrix field(lit_.nx(), count);
-            for (int64_t y = 0; y < count; ++y)
-                for (int64_t x = 0; x < lit_.nx(); ++x) {
-                    const double lit = lit_(x, first + y);
-                    field(x, y) =
-                        lit == 0
-                            ? Complex(0)
-                            : std::polar(lit, 2 * pi *
-                                                  wavefront(u_[static_cast<size_t>(x)],
-                                                            v_[static_cast<size_t>(first + y)]));
-                }
-            const Matrix along_y = waves(grid, v_.data() + first, count, k);
-            const Matrix transformed = along_x * field;
-            sum.noalias() += transformed * along_y.transpose();
-        }
-        Plane<double> intensity(grid.size, grid.size);
-        for (int64_t y = 0; y < grid.size; ++y)
-            for (int64_t x = 0; x < grid.size; ++x)
-                intensity(x, y) =
-                    std::norm(sum(x, y) * square(k * grid.angle(x)) * square(k * grid.angle(y)));
+                         double eps) const override {
         // One phase a pixel: the wavefront's slope is lost inside it, to second order.
         const double turn = 2 * pi * wavefront.slope_bound() * scale_;
-        return {std::move(intensity), lit_.nx() * lit_.ny(), rounding, turn * turn / 12};
+        return {diffract_in_strips(wavefront, wavelength, grid, eps)->rows(0, grid.size),
+                lit_.nx() * lit_.ny(), rounding, turn * turn / 12};
+    }
+
+    std::unique_ptr<const DiffractionStrips> diffract_in_strips(const Wavefront &wavefront,
+                                                                double wavelength,
+                                                                const FocalGrid &grid,
+                                                                double) const override {
+        return std::make_unique<MaskStrips>(lit_, u_, v_, scale_, wavefront, wavelength, grid);
+    }
+
+    StripMemory strip_memory(double, const FocalGrid &grid, double) const override {
+        const auto size = static_cast<int64_t>(sizeof(Complex));
+        return {size * grid.size * (lit_.nx() + lit_.ny()), 2 * size * (grid.size + lit_.ny())};
     }
 
     PupilRaster raster(int64_t, int64_t) const override {
@@ -111,12 +154,6 @@ class MaskAperture final : public Aperture {
     }
 
   private:
-    // The transform of one pixel's side.
-    double square(double k) const {
-        const double half = k * scale_ / 2;
-        return half == 0 ? scale_ : scale_ * std::sin(half) / half;
-    }
-
     Plane<double> lit_;
     std::vector<double> u_, v_; // pixel centres, m
     double scale_;

@@ -14,7 +14,19 @@ namespace wfpsf {
 
 namespace {
 
-constexpr double largest_reach = 4096; // native pixels
+// The distance of an image's farthest pixel from a star, along an axis, native pixels.
+double checked_reach(const Star &star, int64_t oversampling, int64_t nx, int64_t ny) {
+    constexpr double largest = 4096;
+    const double reach =
+        std::max({std::abs(star.x), std::abs(static_cast<double>(nx - 1) - star.x),
+                  std::abs(star.y), std::abs(static_cast<double>(ny - 1) - star.y)}) /
+        static_cast<double>(oversampling);
+    if (!(reach <= largest))
+        fail(WFPSF_ERROR_RANGE,
+             "star at (%g, %g): farther than %g native pixels from a pixel of the image", star.x,
+             star.y, largest);
+    return reach;
+}
 
 } // namespace
 
@@ -37,21 +49,37 @@ std::vector<Component> Psf::components() const {
 }
 
 template <class T>
-void Psf::draw(double x, double y, double flux, int64_t oversampling, View<T> out) const {
-    if (out.empty())
-        return;
-    const double reach = std::max({std::abs(x), std::abs(static_cast<double>(out.nx - 1) - x),
-                                   std::abs(y), std::abs(static_cast<double>(out.ny - 1) - y)}) /
-                         static_cast<double>(oversampling);
-    if (!(reach <= largest_reach))
-        fail(WFPSF_ERROR_RANGE,
-             "star at (%g, %g): farther than %g native pixels from a pixel of the image", x, y,
-             largest_reach);
-    if (reach > settings_.radius)
-        draw_from(make_fields(optics_, {&light_, 1}, settings_, reach)[0], {x, y, flux},
-                  oversampling, 0, 0, out);
-    else
-        draw_from(field_, {x, y, flux}, oversampling, 0, 0, out);
+double Psf::draw(const Star &star, int64_t oversampling, View<T> image, Drawing drawing,
+                 const Manners &manners) const {
+    if (image.empty())
+        return 0;
+    const double reach = checked_reach(star, oversampling, image.nx, image.ny);
+    const auto fill = [&image](const auto &value) {
+        for (int64_t y = 0; y < image.ny; ++y)
+            for (int64_t x = 0; x < image.nx; ++x)
+                image(x, y) = static_cast<T>(value(image(x, y), x, y));
+    };
+    if (reach > settings_.radius) {
+        if (drawing == Drawing::overwrites)
+            fill([](T, int64_t, int64_t) { return 0; });
+        return add_large_stamp(optics_, light_, settings_, field_.peak, star,
+                               {reach, oversampling, image.nx, image.ny}, image, manners);
+    }
+    if (drawing == Drawing::overwrites) {
+        draw_from(field_, star, oversampling, 0, 0, image);
+    } else {
+        Plane<double> stamp(image.nx, image.ny);
+        draw_from(field_, star, oversampling, 0, 0, stamp.view());
+        fill([&stamp](T before, int64_t x, int64_t y) { return before + stamp(x, y); });
+    }
+    return field_.error;
+}
+
+StampMemory Psf::draw_memory(const Star &star, int64_t oversampling, int64_t nx, int64_t ny) const {
+    const double reach = checked_reach(star, oversampling, nx, ny);
+    if (reach <= settings_.radius)
+        return {0, 0};
+    return stamp_memory(optics_, light_, settings_, field_.peak, {reach, oversampling, nx, ny});
 }
 
 // The star counts from a pixel of which out's first one is (first_x, first_y).
@@ -121,8 +149,8 @@ void Psf::add_to_rows(std::span<const Star> stars, int64_t oversampling, View<T>
 }
 
 std::vector<Psf> make_psfs(const Optics &optics, std::span<const Light> lights,
-                           const PsfSettings &settings, const Progress &progress) {
-    std::vector<Field> fields = make_fields(optics, lights, settings, settings.radius, progress);
+                           const PsfSettings &settings, const Manners &manners) {
+    std::vector<Field> fields = make_fields(optics, lights, settings, settings.radius, manners);
     std::vector<Psf> psfs;
     for (size_t s = 0; s < lights.size(); ++s)
         psfs.emplace_back(optics, lights[s], settings, std::move(fields[s]));
@@ -131,7 +159,7 @@ std::vector<Psf> make_psfs(const Optics &optics, std::span<const Light> lights,
 
 template void Psf::add(std::span<const Star>, int64_t, View<float>, int) const;
 template void Psf::add(std::span<const Star>, int64_t, View<double>, int) const;
-template void Psf::draw(double, double, double, int64_t, View<float>) const;
-template void Psf::draw(double, double, double, int64_t, View<double>) const;
+template double Psf::draw(const Star &, int64_t, View<float>, Drawing, const Manners &) const;
+template double Psf::draw(const Star &, int64_t, View<double>, Drawing, const Manners &) const;
 
 } // namespace wfpsf

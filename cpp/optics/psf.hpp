@@ -6,16 +6,12 @@
 #include "image/view.hpp"
 #include "optics/component.hpp"
 #include "optics/field.hpp"
+#include "optics/large_stamp.hpp"
 
 #include <span>
 #include <vector>
 
 namespace wfpsf {
-
-// Position in samples of an image, the first one's centre at (0, 0).
-struct Star {
-    double x, y, flux;
-};
 
 // Immutable once made; draw() may be called from many threads.
 class Psf {
@@ -27,12 +23,17 @@ class Psf {
     // `field` is what make_fields() gives for the other arguments and settings.radius.
     Psf(const Optics &optics, Light light, const PsfSettings &settings, Field field);
 
-    // out(i, j) = flux * (fraction of the light that a native pixel centred there receives) / N^2,
-    // N = oversampling samples a native pixel, for a star at sample position (x, y). So the sum
-    // over an infinite image is the flux, at any N. A stamp that reaches beyond settings().radius
-    // gets a larger field of its own, at the cost of making it.
+    // image(i, j) = flux * (fraction of the light that a native pixel centred there receives) /
+    // N^2, N = oversampling samples a native pixel; or that is added. So the sum over an infinite
+    // image is the flux, at any N. An image that reaches beyond settings().radius is drawn from its
+    // diffraction image anew, in strips. Returns an estimate of the error, of the peak pixel.
+    enum class Drawing { overwrites, adds };
     template <class T>
-    void draw(double x, double y, double flux, int64_t oversampling, View<T> out) const;
+    double draw(const Star &star, int64_t oversampling, View<T> image,
+                Drawing drawing = Drawing::overwrites, const Manners &manners = {}) const;
+
+    // What drawing beyond settings().radius takes; nothing otherwise.
+    StampMemory draw_memory(const Star &star, int64_t oversampling, int64_t nx, int64_t ny) const;
 
     // Adds stars to an image, each on the pixels within settings().radius of it along both axes;
     // stars out of reach of the image add nothing. The threads share the image's rows, and the bits
@@ -71,6 +72,6 @@ class Psf {
 
 // PSFs of several sources that share their monochromatic images.
 std::vector<Psf> make_psfs(const Optics &optics, std::span<const Light> lights,
-                           const PsfSettings &settings, const Progress &progress = {});
+                           const PsfSettings &settings, const Manners &manners = {});
 
 } // namespace wfpsf

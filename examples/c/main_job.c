@@ -115,7 +115,7 @@ static double field_flux(const wfpsf_psf *psf) {
     static double pixels[FIELD * FIELD];
     wfpsf_image *field;
     check(wfpsf_image_wrap(WFPSF_FLOAT64, pixels, FIELD, FIELD, 1, FIELD, FIELD_SAMPLING, &field));
-    check(wfpsf_psf_draw(psf, (FIELD - 1) / 2.0, (FIELD - 1) / 2.0, 1, field));
+    check(wfpsf_psf_draw(psf, (FIELD - 1) / 2.0, (FIELD - 1) / 2.0, 1, NULL, field));
     wfpsf_image_destroy(field);
     double sum = 0;
     for (int i = 0; i < FIELD * FIELD; ++i)
@@ -196,7 +196,7 @@ static struct table_row make_row(const wfpsf_instrument *instrument, int band, i
     check(wfpsf_image_create(WFPSF_FLOAT64, SIDE, SIDE, OVERSAMPLING, &optics));
     check(wfpsf_image_create(WFPSF_FLOAT64, SIDE, SIDE, OVERSAMPLING, &with_ipc));
     start = now_ms();
-    check(wfpsf_psf_draw(psf, centre, centre, 1, optics));
+    check(wfpsf_psf_draw(psf, centre, centre, 1, NULL, optics));
     row.draw_ms = now_ms() - start;
 
     progress(row.band, ": moments and EE50");
@@ -309,7 +309,7 @@ static void draw_figure(const char *folder, const wfpsf_instrument *instrument,
         check(wfpsf_psf_create(instrument, SCA, wavelength_nm[i], options, &psf));
         check(wfpsf_image_wrap(WFPSF_FLOAT64, pixels + (size_t)i * SIDE * SIDE, SIDE, SIDE, 1, SIDE,
                                OVERSAMPLING, &image));
-        check(wfpsf_psf_draw(psf, centre, centre, 1, image));
+        check(wfpsf_psf_draw(psf, centre, centre, 1, NULL, image));
         snprintf(name, sizeof name, "psf_%s", bands[i]);
         path_in(folder, name, ".fits", path);
         check(wfpsf_image_write_fits(image, path, options));

@@ -59,7 +59,7 @@ static void check_stamp(const wfpsf_psf *psf, const wfpsf_instrument *c5, int64_
     CHECK_OK(wfpsf_instrument_constant(c5, "pixel_scale", &scale, NULL));
     const double pixel = scale * pi / 180 / 3600, n = (double)oversampling;
     wfpsf_image *image = wrap_strided(data, size, size, 1, size, oversampling);
-    CHECK_OK(wfpsf_psf_draw(psf, x, y, 1, image));
+    CHECK_OK(wfpsf_psf_draw(psf, x, y, 1, NULL, image));
     for (int i = 0; i < size * size; ++i)
         peak = fmax(peak, data[i]);
     for (int j = 0; j < size; ++j)

@@ -29,7 +29,7 @@ enum { size = 15 };
 
 static void draw(wfpsf_psf *psf, double *data) {
     wfpsf_image *image = wrap(data, size, size);
-    CHECK_OK(wfpsf_psf_draw(psf, 7.2, 6.9, 1, image));
+    CHECK_OK(wfpsf_psf_draw(psf, 7.2, 6.9, 1, NULL, image));
     wfpsf_image_destroy(image);
     wfpsf_psf_destroy(psf);
 }
@@ -117,7 +117,7 @@ static void test_struts(void) {
         CHECK_OK(wfpsf_psf_create(mine, 1, 1500, with, &psf));
         CHECK_OK(wfpsf_psf_get(psf, WFPSF_PSF_LIT_AREA_M2, &area[turn]));
         wfpsf_image *image = wrap(turn ? second : first, size, size);
-        CHECK_OK(wfpsf_psf_draw(psf, 7, 7, 1, image));
+        CHECK_OK(wfpsf_psf_draw(psf, 7, 7, 1, NULL, image));
         wfpsf_image_destroy(image);
         wfpsf_psf_destroy(psf);
         CHECK_OK(wfpsf_psf_create(mine, 1, 1500, without, &psf));

@@ -13,7 +13,7 @@ static void check_sum_of_stars(const wfpsf_psf *psf, const double *galaxy, doubl
         for (int a = 0; a < side; ++a) {
             CHECK_OK(wfpsf_psf_draw(psf, x + (a - (side - 1) / 2.0) / samples,
                                     y + (b - (side - 1) / 2.0) / samples,
-                                    flux * galaxy[b * side + a], image));
+                                    flux * galaxy[b * side + a], NULL, image));
             for (int i = 0; i < nx * ny; ++i)
                 sum[i] += star[i];
         }

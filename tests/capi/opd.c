@@ -23,7 +23,7 @@ static void draw(const wfpsf_instrument *c5, const wfpsf_options *options, doubl
     wfpsf_psf *psf = NULL;
     wfpsf_image *image = wrap(data, size, size);
     CHECK_OK(wfpsf_psf_create(c5, 7, wavelength_nm, options, &psf));
-    CHECK_OK(wfpsf_psf_draw(psf, 7.2, 6.9, 1, image));
+    CHECK_OK(wfpsf_psf_draw(psf, 7.2, 6.9, 1, NULL, image));
     wfpsf_image_destroy(image);
     wfpsf_psf_destroy(psf);
 }

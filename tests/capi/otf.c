@@ -91,7 +91,7 @@ static void test_draws_the_psf(const wfpsf_psf *psf, const wfpsf_otf *otf) {
     wfpsf_image *re = wrap(re_values, n, n), *im = wrap(im_values, n, n);
     wfpsf_image *drawn = wrap(star, stamp, stamp);
     CHECK_OK(wfpsf_otf_grid(otf, WFPSF_RESPONSE_EFFECTIVE, WFPSF_ORDER_CENTRED, step, re, im));
-    CHECK_OK(wfpsf_psf_draw(psf, 2, 2, 1, drawn));
+    CHECK_OK(wfpsf_psf_draw(psf, 2, 2, 1, NULL, drawn));
     CHECK_OK(wfpsf_psf_get(psf, WFPSF_PSF_PEAK, &peak));
     for (int y = 0; y < stamp; ++y)
         for (int x = 0; x < stamp; ++x) {

@@ -27,7 +27,7 @@ static double number(const wfpsf_psf *psf, int32_t key) {
 static void draw(const wfpsf_psf *psf, int64_t nx, int64_t ny, int64_t oversampling, double x,
                  double y, double *data) {
     wfpsf_image *image = wrap_strided(data, nx, ny, 1, nx, oversampling);
-    CHECK_OK(wfpsf_psf_draw(psf, x, y, 1, image));
+    CHECK_OK(wfpsf_psf_draw(psf, x, y, 1, NULL, image));
     check_record(image, oversampling, 0.11, WFPSF_EFFECT_PIXEL_RESPONSE);
     wfpsf_image_destroy(image);
 }
@@ -79,15 +79,17 @@ static void test_draw_refuses(const wfpsf_psf *psf) {
     fill(data, 30, 7);
     wfpsf_image *image = wrap(data, 6, 5);
     CHECK_OK(wfpsf_image_set_record(image, 2, 0.5, WFPSF_EFFECT_IPC));
-    CHECK_FAILS(WFPSF_ERROR_NULL, "psf", wfpsf_psf_draw(NULL, 2, 2, 1, image));
-    CHECK_FAILS(WFPSF_ERROR_NULL, "image", wfpsf_psf_draw(psf, 2, 2, 1, NULL));
-    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "x = nan", wfpsf_psf_draw(psf, NAN, 2, 1, image));
-    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "y = inf", wfpsf_psf_draw(psf, 2, HUGE_VAL, 1, image));
-    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "flux = -inf", wfpsf_psf_draw(psf, 2, 2, -HUGE_VAL, image));
-    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "flux = nan", wfpsf_psf_draw(psf, 2, 2, NAN, image));
-    CHECK_FAILS(WFPSF_ERROR_RANGE, "8200", wfpsf_psf_draw(psf, 8200, 2, 1, image));
-    CHECK_FAILS(WFPSF_ERROR_RANGE, "-8193", wfpsf_psf_draw(psf, 2, -8193, 1, image));
-    CHECK_FAILS(WFPSF_ERROR_RANGE, "1e+300", wfpsf_psf_draw(psf, 1e300, 2, 1, image));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "psf", wfpsf_psf_draw(NULL, 2, 2, 1, NULL, image));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "image", wfpsf_psf_draw(psf, 2, 2, 1, NULL, NULL));
+    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "x = nan", wfpsf_psf_draw(psf, NAN, 2, 1, NULL, image));
+    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "y = inf",
+                wfpsf_psf_draw(psf, 2, HUGE_VAL, 1, NULL, image));
+    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "flux = -inf",
+                wfpsf_psf_draw(psf, 2, 2, -HUGE_VAL, NULL, image));
+    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "flux = nan", wfpsf_psf_draw(psf, 2, 2, NAN, NULL, image));
+    CHECK_FAILS(WFPSF_ERROR_RANGE, "8200", wfpsf_psf_draw(psf, 8200, 2, 1, NULL, image));
+    CHECK_FAILS(WFPSF_ERROR_RANGE, "-8193", wfpsf_psf_draw(psf, 2, -8193, 1, NULL, image));
+    CHECK_FAILS(WFPSF_ERROR_RANGE, "1e+300", wfpsf_psf_draw(psf, 1e300, 2, 1, NULL, image));
     CHECK(all_are(data, 30, 7));
     check_record(image, 2, 0.5, WFPSF_EFFECT_IPC);
     wfpsf_image_destroy(image);
@@ -118,9 +120,9 @@ static void test_storage(const wfpsf_psf *psf) {
     CHECK_OK(wfpsf_image_set_record(backward, 2, 0, 0));
     CHECK_OK(wfpsf_image_set_record(narrow, 2, 0, 0));
     CHECK_OK(wfpsf_image_set_record(scaled, 2, 0, 0));
-    CHECK_OK(wfpsf_psf_draw(psf, 5.3, 4.1, 1, backward));
-    CHECK_OK(wfpsf_psf_draw(psf, 5.3, 4.1, 1, narrow));
-    CHECK_OK(wfpsf_psf_draw(psf, 5.3, 4.1, -2e6, scaled));
+    CHECK_OK(wfpsf_psf_draw(psf, 5.3, 4.1, 1, NULL, backward));
+    CHECK_OK(wfpsf_psf_draw(psf, 5.3, 4.1, 1, NULL, narrow));
+    CHECK_OK(wfpsf_psf_draw(psf, 5.3, 4.1, -2e6, NULL, scaled));
     for (int i = 0; i < 99; ++i) {
         CHECK(flipped[98 - i] == data[i]);
         CHECK_NEAR((double)single[i], data[i], 6e-8 * data[i] + 1e-12);
@@ -174,7 +176,7 @@ static void check_centroid(const wfpsf_psf *psf, int64_t nx, int64_t ny, int64_t
     wfpsf_image *image = wrap_strided(data, nx, ny, 1, nx, oversampling);
     wfpsf_moments *moments = NULL;
     const double star_x = (double)(nx - 1) / 2 + shift_x, star_y = (double)(ny - 1) / 2 + shift_y;
-    CHECK_OK(wfpsf_psf_draw(psf, star_x, star_y, 1, image));
+    CHECK_OK(wfpsf_psf_draw(psf, star_x, star_y, 1, NULL, image));
     if (oversampling > 2) {
         CHECK_OK(wfpsf_moments_measure(image, NULL, &moments));
     } else {

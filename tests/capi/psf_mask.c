@@ -52,7 +52,7 @@ static void test_square_pupil(const wfpsf_instrument *c5) {
         wfpsf_image_destroy(image); /* copied */
         CHECK_OK(wfpsf_psf_get(psf, WFPSF_PSF_LIT_AREA_M2, &area));
         CHECK_NEAR(area, lit * lit * scale * scale, 1e-12);
-        CHECK_OK(wfpsf_psf_draw(psf, 4.3, 3.9, 1, out));
+        CHECK_OK(wfpsf_psf_draw(psf, 4.3, 3.9, 1, NULL, out));
         const double peak = data[4 * stamp + 4];
         for (int y = 0; y < stamp; ++y)
             for (int x = 0; x < stamp; ++x)

@@ -29,8 +29,8 @@ static double difference(const wfpsf_instrument *instrument, const char *band, i
     CHECK_OK(wfpsf_psf_get(psf, WFPSF_PSF_LIT_AREA_M2, &area));
     CHECK_NEAR(sum * scale * scale, area, 1e-8);
     CHECK_OK(wfpsf_psf_get(psf, WFPSF_PSF_PEAK, &peak));
-    CHECK_OK(wfpsf_psf_draw(psf, 5.2, 4.9, 1, image));
-    CHECK_OK(wfpsf_psf_draw(other, 5.2, 4.9, 1, other_image));
+    CHECK_OK(wfpsf_psf_draw(psf, 5.2, 4.9, 1, NULL, image));
+    CHECK_OK(wfpsf_psf_draw(other, 5.2, 4.9, 1, NULL, other_image));
     for (int i = 0; i < stamp * stamp; ++i)
         worst = fmax(worst, fabs(by_mask[i] - by_geometry[i]) / peak);
 

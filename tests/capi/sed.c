@@ -73,7 +73,7 @@ enum { side = 11 };
 
 static void draw(const wfpsf_psf *psf, double *pixels) {
     wfpsf_image *image = wrap(pixels, side, side);
-    CHECK_OK(wfpsf_psf_draw(psf, 5.1, 4.8, 1, image));
+    CHECK_OK(wfpsf_psf_draw(psf, 5.1, 4.8, 1, NULL, image));
     wfpsf_image_destroy(image);
 }
 

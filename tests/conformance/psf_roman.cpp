@@ -71,7 +71,8 @@ Psf make_masked(const Row &aberrations, const Pixels &mask) {
 
 Pixels draw(const Psf &psf, int side, int oversampling) {
     Pixels stamp(side, side, oversampling);
-    require(wfpsf_psf_draw(psf.get(), (side - 1) / 2.0, (side - 1) / 2.0, 1, stamp.image.get()));
+    require(wfpsf_psf_draw(psf.get(), (side - 1) / 2.0, (side - 1) / 2.0, 1, nullptr,
+                           stamp.image.get()));
     return stamp;
 }
 

@@ -18,7 +18,7 @@ Pixels draw_field(const Psf &psf, int native_pixels) {
     const int side = native_pixels * oversampling;
     Pixels field(side, side, oversampling);
     const double centre = (side - 1) / 2.0;
-    require(wfpsf_psf_draw(psf.get(), centre, centre, 1, field.image.get()));
+    require(wfpsf_psf_draw(psf.get(), centre, centre, 1, nullptr, field.image.get()));
     return field;
 }
 
@@ -134,7 +134,7 @@ void expect_stamps(const MakePsf &make, double tolerance) {
         const Pixels truth = read_fits("psf_c5/" + name);
         const Psf psf = make(std::stoi(part[1]), wavelength_nm.at(part[2]));
         Pixels stamp(truth.nx, truth.ny);
-        require(wfpsf_psf_draw(psf.get(), 16 + std::stod(part[3]), 16 + std::stod(part[4]), 1,
+        require(wfpsf_psf_draw(psf.get(), 16 + std::stod(part[3]), 16 + std::stod(part[4]), 1, NULL,
                                stamp.image.get()));
         double peak = 0, worst = 0;
         for (size_t i = 0; i < truth.data.size(); ++i) {

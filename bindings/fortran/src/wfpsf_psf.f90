@@ -46,7 +46,7 @@ contains
     end procedure psf_destroy
 
     module procedure psf_draw
-        call report(wfpsf_psf_draw(self%pointer, x - 1, y - 1, flux, image%pointer), stat, errmsg)
+        call report(wfpsf_psf_draw(self%pointer, x - 1, y - 1, flux, c_null_ptr, image%pointer), stat, errmsg)
     end procedure psf_draw
 
     module procedure psf_add_stars

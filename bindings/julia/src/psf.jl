@@ -91,7 +91,7 @@ receives, N the image's oversampling: the sum over an infinite image is the flux
 record becomes the PSF's pixel scale, with the pixel response applied.
 """
 function draw!(image::Image, psf::PSF, x::Real, y::Real; flux::Real = 1)
-    check(LibWfpsf.wfpsf_psf_draw(psf, x - 1, y - 1, flux, image))
+    check(LibWfpsf.wfpsf_psf_draw(psf, x - 1, y - 1, flux, C_NULL, image))
     return image
 end
 

@@ -74,11 +74,12 @@ WFPSF_EXPORT wfpsf_status wfpsf_options_set_opd(wfpsf_options *options, const wf
  *           sca            1..n_sca
  *           wavelength_nm  100..100000
  *           options        EPS, STRUTS, PSF_RADIUS, PISTON_TILT, JITTER_*, CHARGE_DIFFUSION,
- *                          extra Zernikes, an OPD map and the progress function
+ *                          extra Zernikes, an OPD map, MEMORY_LIMIT and the progress function
  * Returned: out            the handle; NULL on failure
  * Status:   ERROR_NULL, ERROR_RANGE, ERROR_NOT_FINITE, ERROR_NO_MEMORY;
  *           ERROR_ARGUMENT if the pupil depends on the band (wfpsf_psf_create_in_band());
- *           ERROR_CANCELLED; WARNING_NOT_CERTIFIED if the error estimate stays above EPS
+ *           ERROR_CANCELLED, ERROR_MEMORY_LIMIT; WARNING_NOT_CERTIFIED if the error estimate stays
+ * above EPS
  */
 WFPSF_EXPORT wfpsf_status wfpsf_psf_create(const wfpsf_instrument *instrument, int32_t sca,
                                            double wavelength_nm, const wfpsf_options *options,
@@ -152,16 +153,46 @@ WFPSF_EXPORT void wfpsf_psf_destroy(wfpsf_psf *psf);
  *
  * Each pixel gets flux / N^2 times the fraction of the light that a native pixel centred there
  * receives, N the image's oversampling: the sum over an infinite image is the flux at any N. The
- * image's record becomes: the PSF's pixel scale, pixel response applied. Any size, odd or even; a
- * stamp that reaches beyond the radius made in advance works, but takes a new field each time.
+ * image's record becomes: the PSF's pixel scale, pixel response applied. Any size, odd or even.
  *
- * Given:    x, y   position of the star, pixels of the image, the first pixel's centre at (0, 0)
- *           flux   finite
- * Returned: image  pixels and record
- * Status:   ERROR_NULL, ERROR_NOT_FINITE, ERROR_RANGE (star more than 4096 native pixels away)
+ * A stamp that reaches beyond the radius made in advance is drawn from its diffraction image anew:
+ * nothing is folded back at any distance, the time goes with the area, and the image is made in
+ * strips so that the memory stays within MEMORY_LIMIT (wfpsf_psf_draw_memory()).
+ *
+ * Given:    x, y     position of the star, pixels of the image, the first pixel's centre at (0, 0)
+ *           flux     finite
+ *           options  MEMORY_LIMIT and the progress function, for stamps beyond the radius
+ * Returned: image    pixels and record
+ * Status:   ERROR_NULL, ERROR_NOT_FINITE, ERROR_RANGE (star more than 4096 native pixels away),
+ *           ERROR_MEMORY_LIMIT (the image is then all zero); ERROR_CANCELLED and ERROR_NO_MEMORY
+ *           leave a part of the light in the image; WARNING_NOT_CERTIFIED
  */
 WFPSF_EXPORT wfpsf_status wfpsf_psf_draw(const wfpsf_psf *psf, double x, double y, double flux,
-                                         wfpsf_image *image);
+                                         const wfpsf_options *options, wfpsf_image *image);
+
+/**
+ * The same, added to what the image holds, on all of its pixels: for stars whose spikes are seen
+ * far from them. (wfpsf_psf_add_stars() is for the many, and ends at RADIUS.) The image's record is
+ * treated as there.
+ *
+ * Status:   as for wfpsf_psf_draw() and wfpsf_psf_add_stars(); after ERROR_MEMORY_LIMIT the image
+ *           is as it was
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_psf_add_bright_star(const wfpsf_psf *psf, double x, double y,
+                                                    double flux, const wfpsf_options *options,
+                                                    wfpsf_image *image);
+
+/**
+ * The memory that drawing a star into an image would take, before it is taken.
+ *
+ * Given:    x, y, image  as for wfpsf_psf_draw(); the image is not touched
+ * Returned: least        bytes without which it cannot be done
+ *           most         bytes with which it is done in one go; either may be NULL
+ * Status:   ERROR_NULL, ERROR_NOT_FINITE, ERROR_RANGE
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_psf_draw_memory(const wfpsf_psf *psf, double x, double y,
+                                                const wfpsf_image *image, int64_t *least,
+                                                int64_t *most);
 
 /**
  * Adds stars to an image, each with the light that falls within the PSF's RADIUS of it along both

@@ -46,14 +46,14 @@ TEST(Blur, GaussiansOfAnyShapeMeetAPlainSum) {
     const int64_t N = 16, centre = 12 * N;
     const Psf sharp = make_psf(1e-11, {}, 13);
     Plane<double> fine(2 * centre + 1, 2 * centre + 1);
-    sharp.draw(static_cast<double>(centre), static_cast<double>(centre), 1, N, fine.view());
+    sharp.draw({static_cast<double>(centre), static_cast<double>(centre), 1}, N, fine.view());
     for (const Covariance &c :
          {Covariance{0.04, 0, 0.04}, Covariance{0.3, 0, 0.02}, Covariance{0.09, 0.05, 0.06},
           Covariance{0.5, -0.3, 0.2}, Covariance{0.02, 0.0099, 0.02}}) {
         for (const double eps : {1e-3, 1e-6, 1e-9}) {
             const Psf psf = make_psf(eps, c, 6);
             Plane<double> stamp(9, 9);
-            psf.draw(4, 4, 1, 1, stamp.view());
+            psf.draw({4, 4, 1}, 1, stamp.view());
             double worst = 0;
             for (int64_t y = 0; y < 9; ++y)
                 for (int64_t x = 0; x < 9; ++x)
@@ -72,7 +72,7 @@ TEST(Blur, GaussiansOfAnyShapeMeetAPlainSum) {
 TEST(Blur, LinesAndSmallGaussiansAreTheirLimits) {
     const auto stamp_of = [](const Covariance &c) {
         Plane<double> stamp(9, 9);
-        make_psf(1e-9, c, 6).draw(4.2, 3.9, 1, 1, stamp.view());
+        make_psf(1e-9, c, 6).draw({4.2, 3.9, 1}, 1, stamp.view());
         return stamp;
     };
     const auto difference = [](const Plane<double> &a, const Plane<double> &b) {

@@ -55,7 +55,7 @@ std::vector<double> truth(const Optics &optics, const Spectrum &light,
 double worst_error(const Psf &psf, const std::vector<std::pair<int, int>> &pixels,
                    const std::vector<double> &expected) {
     Plane<double> stamp(33, 33);
-    psf.draw(star_x, star_y, 1, 1, stamp.view());
+    psf.draw({star_x, star_y, 1}, 1, stamp.view());
     double peak = 0, worst = 0;
     for (int64_t y = 0; y < 33; ++y)
         for (int64_t x = 0; x < 33; ++x)
@@ -116,7 +116,7 @@ TEST(Chromatic, WavelengthsSufficeForEveryPixel) {
         const auto stamp_of = [&](double eps) {
             const Psf psf = std::move(make_psfs(optics, std::vector{light}, settings(eps))[0]);
             std::pair<Plane<double>, double> stamp(Plane<double>(33, 33), psf.error_estimate());
-            psf.draw(star_x, star_y, 1, 1, stamp.first.view());
+            psf.draw({star_x, star_y, 1}, 1, stamp.first.view());
             return stamp;
         };
         const auto [best, certain] = stamp_of(1e-9);
@@ -169,8 +169,8 @@ TEST(Chromatic, OneColourIsTheMonochromaticPsf) {
     const Psf chromatic = std::move(make_psfs(optics, std::vector{one}, settings(1e-8))[0]);
     const Psf plain(optics.aperture, optics.wavefront, settings(1e-8));
     Plane<double> a(20, 20), b(20, 20);
-    chromatic.draw(9.2, 9.9, 3, 1, a.view());
-    plain.draw(9.2, 9.9, 3, 1, b.view());
+    chromatic.draw({9.2, 9.9, 3}, 1, a.view());
+    plain.draw({9.2, 9.9, 3}, 1, b.view());
     for (int64_t y = 0; y < 20; ++y)
         for (int64_t x = 0; x < 20; ++x)
             EXPECT_EQ(a(x, y), b(x, y));
@@ -186,8 +186,8 @@ TEST(Chromatic, LargeStampsGetTheirOwnWavelengths) {
     const Psf large = std::move(make_psfs(optics, std::vector{light}, far)[0]);
     EXPECT_LT(small.components().size(), large.components().size());
     Plane<double> a(47, 47), b(47, 47);
-    small.draw(23.2, 22.9, 1, 1, a.view());
-    large.draw(23.2, 22.9, 1, 1, b.view());
+    small.draw({23.2, 22.9, 1}, 1, a.view());
+    large.draw({23.2, 22.9, 1}, 1, b.view());
     for (int64_t y = 0; y < 47; ++y)
         for (int64_t x = 0; x < 47; ++x)
             EXPECT_NEAR(a(x, y), b(x, y), 1e-6);
@@ -204,7 +204,7 @@ TEST(Chromatic, TheCallerMayStopTheWork) {
         return ++calls < 3;
     }};
     try {
-        make_psfs(optics, std::vector{light}, settings(1e-4), progress);
+        make_psfs(optics, std::vector{light}, settings(1e-4), {.progress = progress});
         ADD_FAILURE() << "not stopped";
     } catch (const Error &error) {
         EXPECT_EQ(error.status(), WFPSF_ERROR_CANCELLED);

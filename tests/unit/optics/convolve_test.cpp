@@ -38,9 +38,10 @@ template <class S> Plane<double> stars(const Source<S> &source, int64_t m, int64
     for (int64_t b = 0; b < g.ny; ++b)
         for (int64_t a = 0; a < g.nx; ++a) {
             psf().draw(
-                source.x + step * (static_cast<double>(a) - static_cast<double>(g.nx - 1) / 2),
-                source.y + step * (static_cast<double>(b) - static_cast<double>(g.ny - 1) / 2),
-                source.flux * static_cast<double>(g(a, b)), m, star.view());
+                {source.x + step * (static_cast<double>(a) - static_cast<double>(g.nx - 1) / 2),
+                 source.y + step * (static_cast<double>(b) - static_cast<double>(g.ny - 1) / 2),
+                 source.flux * static_cast<double>(g(a, b))},
+                m, star.view());
             for (int64_t i = 0; i < nx * ny; ++i)
                 sum(i % nx, i / nx) += star(i % nx, i / nx);
         }
@@ -81,7 +82,7 @@ TEST(Convolve, OneSampleIsAStar) {
     Plane<double> one(7, 7), out(31, 33), star(31, 33);
     one(3, 3) = 3;
     convolve(psf(), Source<double>{one.view(), 4, 14.3, 17.9, 1}, 1, out.view());
-    psf().draw(14.3, 17.9, 3, 1, star.view());
+    psf().draw({14.3, 17.9, 3}, 1, star.view());
     for (int64_t y = 0; y < 33; ++y)
         for (int64_t x = 0; x < 31; ++x)
             EXPECT_NEAR(out(x, y), star(x, y), 1e-8 * 3 * psf().peak());

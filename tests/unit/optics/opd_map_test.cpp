@@ -142,7 +142,7 @@ struct Stamp {
 Stamp draw(const Wavefront &wavefront, double eps) {
     const Psf psf(make_aperture(annulus), wavefront, {wavelength, pixel_scale, eps, 10});
     Stamp stamp{Plane<double>(17, 17), psf.error_estimate(), 0};
-    psf.draw(8.2, 7.7, 1, 1, stamp.value.view());
+    psf.draw({8.2, 7.7, 1}, 1, stamp.value.view());
     for (int64_t y = 0; y < 17; ++y)
         for (int64_t x = 0; x < 17; ++x)
             stamp.peak = std::max(stamp.peak, stamp.value(x, y));

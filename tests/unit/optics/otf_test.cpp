@@ -138,7 +138,7 @@ TEST(Otf, IsTheTransformOfThePsf) {
         constexpr int64_t n = 285, oversampling = 3;
         const double step = pixel_scale / oversampling;
         Plane<double> stamp(n, n);
-        psf.draw(n / 2, n / 2, 1, oversampling, stamp.view());
+        psf.draw({n / 2, n / 2, 1}, oversampling, stamp.view());
         for (const auto &[x, y] : {std::pair(0.2, 0.1), std::pair(0.1, -0.3), std::pair(-0.5, 0.2),
                                    std::pair(0.1, 0.6)}) {
             const double kx = x * otf.cutoff(), ky = y * otf.cutoff();

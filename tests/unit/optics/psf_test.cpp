@@ -48,7 +48,7 @@ struct Probe {
 void expect_within_eps(const Psf &psf, double star_x, double star_y,
                        const std::vector<Probe> &probes, const char *what) {
     Plane<double> stamp(33, 33);
-    psf.draw(star_x, star_y, 1, 1, stamp.view());
+    psf.draw({star_x, star_y, 1}, 1, stamp.view());
     double peak = 0, worst = 0;
     for (int64_t y = 0; y < 33; ++y)
         for (int64_t x = 0; x < 33; ++x)
@@ -133,22 +133,22 @@ TEST(Psf, SamplingOffsetsAndTypesAgree) {
     // Native pixels are every N-th sample of an oversampled stamp, times N^2.
     const int64_t N = 5;
     Plane<double> native(7, 6), fine(7 * N, 6 * N);
-    psf.draw(3.3, 2.6, 2.5, 1, native.view());
-    psf.draw(3.3 * N, 2.6 * N, 2.5, N, fine.view());
+    psf.draw({3.3, 2.6, 2.5}, 1, native.view());
+    psf.draw({3.3 * N, 2.6 * N, 2.5}, N, fine.view());
     for (int64_t y = 0; y < 6; ++y)
         for (int64_t x = 0; x < 7; ++x)
             EXPECT_NEAR(fine(N * x, N * y) * N * N, native(x, y), 1e-9);
     // A stamp beyond the radius, in float, with both strides negative.
     const int64_t n = 25;
     std::vector<float> pixels(static_cast<size_t>(n * n));
-    psf.draw(15.3, 14.6, 2.5, 1, View<float>{pixels.data() + n * n - 1, n, n, -1, -n});
+    psf.draw({15.3, 14.6, 2.5}, 1, View<float>{pixels.data() + n * n - 1, n, n, -1, -n});
     for (int64_t y = 0; y < 6; ++y)
         for (int64_t x = 0; x < 7; ++x)
             EXPECT_NEAR(pixels[static_cast<size_t>(n * n - 1 - (y + 12) * n - (x + 12))],
                         native(x, y), 1e-7);
     Plane<double> none(0, 0);
-    psf.draw(0, 0, 1, 1, none.view());
-    EXPECT_THROW(psf.draw(1e5, 0, 1, 1, native.view()), Error);
+    psf.draw({0, 0, 1}, 1, none.view());
+    EXPECT_THROW(psf.draw({1e5, 0, 1}, 1, native.view()), Error);
 }
 
 // Stars in a heap, on and beyond the borders, against a stamp of each drawn by itself.
@@ -164,7 +164,7 @@ TEST(Psf, StarsAreAddedWithClippingAndAnyNumberOfThreads) {
             if (!(std::abs(star.x) < 100))
                 continue;
             Plane<double> stamp(41, 37);
-            psf.draw(star.x, star.y, star.flux, N, stamp.view());
+            psf.draw({star.x, star.y, star.flux}, N, stamp.view());
             for (int64_t y = 0; y < 37; ++y)
                 for (int64_t x = 0; x < 41; ++x)
                     if (std::abs(static_cast<double>(x) - star.x) <= 6.0 * static_cast<double>(N) &&
@@ -193,7 +193,7 @@ TEST(Psf, EqualCallsGiveEqualBits) {
         const Psf psf(make_aperture(c5_pupil()), sca_wavefront(3, 1577.05e-9),
                       {1577.05e-9, pixel_scale, 1e-6, 8});
         Plane<double> stamp(16, 16);
-        psf.draw(7.1, 7.9, 1, 1, stamp.view());
+        psf.draw({7.1, 7.9, 1}, 1, stamp.view());
         return std::vector<double>(stamp.view().data, stamp.view().data + 256);
     };
     EXPECT_EQ(draw(), draw());

@@ -83,7 +83,7 @@ TEST(PupilRaster, BothEnginePathsAgree) {
             const PsfSettings settings{wavelength, pixel_scale, 1e-9, 8};
             const auto drawn = [&](const std::shared_ptr<const Aperture> &aperture) {
                 Plane<double> stamp(33, 33);
-                Psf(aperture, wavefront, settings).draw(15.8, 16.3, 1, 2, stamp.view());
+                Psf(aperture, wavefront, settings).draw({15.8, 16.3, 1}, 2, stamp.view());
                 return stamp;
             };
             const Plane<double> truth = drawn(c.aperture);

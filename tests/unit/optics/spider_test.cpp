@@ -115,7 +115,7 @@ void expect_psf(const std::string &name, const SpiderPupil &pupil, const InPixel
     for (const double eps : {1e-3, 1e-6, 1e-10}) {
         const Psf psf(make_aperture(pupil), Wavefront({}, 1), {wavelength, pixel_scale, eps, 13});
         Plane<double> stamp(25, 25);
-        psf.draw(star_x, star_y, 1, 1, stamp.view());
+        psf.draw({star_x, star_y, 1}, 1, stamp.view());
         double peak = 0, worst = 0;
         for (int64_t y = 0; y < 25; ++y)
             for (int64_t x = 0; x < 25; ++x)

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How many wavelengths an image needs.
+#pragma once
+
+#include "optics/spectrum.hpp"
+
+#include <cstddef>
+#include <vector>
+
+namespace wfpsf {
+
+// How wavelengths and everything else share a tolerance; light of one colour needs none of it.
+struct Shares {
+    double for_colour, for_the_rest;
+};
+Shares shares_of(double eps, const Spectrum &spectrum);
+
+// How bright an image is, at most and about, where the optical path difference across the pupil is
+// so large, in units of the peak: spikes fall as the square of the radius, rings as the cube.
+double brightness(double path, double wavelength);
+
+// How many wavelengths the image needs, about, up to where the path is so long: at its corner it
+// changes fastest with colour, nearer to the core it is brighter.
+size_t wavelengths_for(const Spectrum &spectrum, double path, double eps);
+
+// What a rule's sum over a spectrum misses of a wave in 1 / wavelength, by optical path difference:
+// of any wave up to that path, since light at a distance from the axis mixes them all.
+class FringeErrors {
+  public:
+    FringeErrors(const WavelengthRule &rule, const Spectrum &spectrum, double longest_path);
+
+    double up_to(double path) const;
+    // The largest one times the brightness there.
+    double of_image(double wavelength) const;
+
+  private:
+    double step_; // of the path
+    std::vector<double> worst_;
+};
+
+} // namespace wfpsf

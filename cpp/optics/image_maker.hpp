@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From diffraction to what stamps are drawn from: which grid an image is made on, and the filters
+// that average it over the native pixel, blur it and interpolate it.
+#pragma once
+
+#include "numerics/bandlimited.hpp"
+#include "optics/aperture.hpp"
+#include "optics/blur.hpp"
+#include "optics/field.hpp"
+
+namespace wfpsf {
+
+class ImageMaker {
+  public:
+    // Images that reach `radius` native pixels, of light no shorter than `shortest_wavelength`;
+    // `tolerance` of an intensity in units of the unaberrated peak.
+    ImageMaker(const Optics &optics, const PsfSettings &settings, double shortest_wavelength,
+               double radius, double tolerance);
+
+    const FocalGrid &grid() const { return grid_; }
+    int64_t per_pixel() const { return per_pixel_; } // grid samples a native pixel
+    int64_t margin() const {                         // that the averages take from the grid
+        return static_cast<int64_t>(filter_.half_width());
+    }
+    size_t filter_terms() const { return filter_.terms.size(); }
+    const BandlimitedInterpolator &interpolator() const { return samples_.interpolator(); }
+
+    // The largest optical path difference between two parts of the pupil, as seen at a distance of
+    // so many grid samples from the axis.
+    double path(double distance) const;
+    double longest_path() const;
+
+    // |A|^2 times this is the fraction of the light that a native pixel's solid angle receives; and
+    // what that is at the peak of an unaberrated image.
+    double scale(double wavelength) const;
+    double unaberrated_peak(double wavelength) const;
+
+    Diffraction diffract(double wavelength) const;
+    std::unique_ptr<const DiffractionStrips> diffract_in_strips(double wavelength) const;
+    StripMemory strip_memory(double wavelength) const;
+    // Bytes that so many fields take while they are made.
+    int64_t memory(size_t fields) const;
+    bool mirrored() const { return settings_.mirrored; }
+
+    // Whole rows of an intensity averaged over the pixel and blurred, on the axes of the image;
+    // with a stride, only every so many-th sample of that.
+    Plane<double> averaged(const Plane<double> &intensity, int64_t stride = 1) const;
+
+    // What the averages and the interpolation add to an image's error, in units of the unaberrated
+    // peak.
+    double filter_error() const { return strength_ * (samples_.error() + filter_.error); }
+
+  private:
+    double bandwidth(double shortest_wavelength) const {
+        return optics_.aperture->diameter() * step_ / shortest_wavelength;
+    }
+    Wavefront wavefront(double wavelength) const {
+        return optics_.wavefront.scaled(optics_.wavelength / wavelength);
+    }
+
+    const Optics &optics_;
+    const PsfSettings &settings_;
+    int64_t per_pixel_;
+    double step_;
+    double strength_; // of the spectrum that bounds the image's
+    AveragedSamples samples_;
+    SeparableFilter filter_;
+    FocalGrid grid_{};
+    double for_diffraction_; // of the tolerance
+    double shortest_wavelength_;
+};
+
+} // namespace wfpsf
