@@ -20,10 +20,11 @@ ORDER = ("version.h.in", "status.h", "options.h", "image.h", "instrument.h", "de
          "psf.h", "otf.h", "ipc.h", "moments.h", "size.h")
 WITHOUT_NAMES = {"export.h", "wfpsf.h"}
 WIDTH = 100
+CALLBACK = "callback"  # stands for every type of pointers to functions
 
 
 class Argument(NamedTuple):
-    type: str  # the C type in one spelling: "double", "const double*", "wfpsf_psf**"
+    type: str  # the C type in one spelling: "double", "const double*", "wfpsf_psf**"; or CALLBACK
     name: str
     is_array: bool
 
@@ -78,7 +79,13 @@ def c_type(text):
     return re.sub(r"\s*\*\s*", "*", " ".join(text.split()))
 
 
-def arguments(text):
+def callbacks(paths):
+    """Names of all types of pointers to functions."""
+    text = "\n".join(path.read_text() for path in paths)
+    return set(re.findall(r"^typedef [^;]*?\(\*(wfpsf_\w+)\)\(", text, re.MULTILINE))
+
+
+def arguments(text, documentation, callback_types):
     if text.strip() == "void":
         return []
     result = []
@@ -86,16 +93,23 @@ def arguments(text):
     for part in text.split(","):
         type_text, name = re.fullmatch(r"\s*(.*?)(\w+)\s*", part, re.DOTALL).groups()
         kind = c_type(type_text)
-        # Numbers come as arrays when const, or when their count was given before.
-        is_array = kind == "const double*" or (kind == "double*" and count_given)
+        if kind in callback_types:
+            kind = CALLBACK
+        # Numbers come as arrays when const, or when their count was given before; handles, when the
+        # documentation says "count handles".
+        is_array = (kind == "const double*" or (kind == "double*" and count_given)
+                    or bool(re.search(rf"\b{name}\s+count handles", documentation)))
         result.append(Argument(kind, name, is_array))
         count_given = count_given or name in ("count", "capacity")
     return result
 
 
-def functions(text):
-    return [Function(name, c_type(result), arguments(given)) for result, name, given in
-            re.findall(r"WFPSF_EXPORT\s+([\w\s*]+?)(wfpsf_\w+)\(([^)]*)\);", text)]
+def functions(text, callback_types):
+    """Functions of a header with its comments."""
+    found = re.findall(r"(?:/\*\*((?:(?!\*/).)*)\*/\s*)?"
+                       r"WFPSF_EXPORT\s+([\w\s*]+?)(wfpsf_\w+)\(([^)]*)\);", text, re.DOTALL)
+    return [Function(name, c_type(result), arguments(given, documentation, callback_types))
+            for documentation, result, name, given in found]
 
 
 def project_numbers():
@@ -107,15 +121,15 @@ def project_numbers():
     return dict(zip(names, version), WFPSF_ABI_NUMBER=abi)
 
 
-def read_header(path, numbers):
-    text = re.sub(r"@(\w+)@", lambda match: numbers[match.group(1)], path.read_text())
-    text = re.sub(r"/\*.*?\*/", "", text, flags=re.DOTALL)
+def read_header(path, numbers, callback_types):
+    whole = re.sub(r"@(\w+)@", lambda match: numbers[match.group(1)], path.read_text())
+    text = re.sub(r"/\*.*?\*/", "", whole, flags=re.DOTALL)
     text = text.replace("\\\n", " ")
     text = re.sub(r"[ \t]+", " ", text)
     text = re.sub(r" ?$", "", text, flags=re.MULTILINE)
     header = Header(path.name.removesuffix(".in"),
                     macro_constants(text) | list_constants(text) | enum_constants(text),
-                    functions(text))
+                    functions(whole, callback_types))
     found = len(header.functions)
     expected = text.count("WFPSF_EXPORT")
     if found != expected:
@@ -170,10 +184,13 @@ def fortran_argument(argument):
         return f"character(kind=c_char), intent({intent}), optional :: {name}(*)"
     if kind == "const char**":
         return f"type(c_ptr), intent(inout), optional :: {name}"
+    if kind == CALLBACK:
+        return f"type(c_funptr), value :: {name}"
     if kind.endswith("*const*"):
         return f"type(c_ptr), intent(in), optional :: {name}(*)"
     if re.fullmatch(r"wfpsf_\w+\*\*", kind):
-        return f"type(c_ptr), intent(out) :: {name}"
+        return (f"type(c_ptr), intent(inout) :: {name}(*)" if argument.is_array
+                else f"type(c_ptr), intent(out) :: {name}")
     if re.fullmatch(r"(const )?(wfpsf_\w+|void)\*", kind):
         return f"type(c_ptr), value :: {name}"
     base = kind.removeprefix("const ").removesuffix("*")
@@ -234,10 +251,10 @@ end module wfpsf_constants
 ! with c_null_char. An optional argument that is absent is a NULL. Outputs are intent(inout) because
 ! an error leaves them alone.
 module wfpsf_c
-    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int32_t, c_int64_t, c_ptr
+    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int32_t, c_int64_t, c_ptr
     use wfpsf_constants
     implicit none
-    private :: c_char, c_double, c_int32_t, c_int64_t, c_ptr
+    private :: c_char, c_double, c_funptr, c_int32_t, c_int64_t, c_ptr
 
     interface""".splitlines()
     for header in headers:
@@ -255,7 +272,7 @@ module wfpsf_c
 JULIA_TYPES = {
     "wfpsf_status": "Int32", "int32_t": "Int32", "int64_t": "Int64", "double": "Float64",
     "void": "Cvoid", "const char*": "Cstring", "const char**": "Ptr{Cstring}",
-    "char*": "Ptr{UInt8}", "void*": "Ptr{Cvoid}"}
+    "char*": "Ptr{UInt8}", "void*": "Ptr{Cvoid}", CALLBACK: "Ptr{Cvoid}"}
 JULIA_RENAMED = {"in": "input"}
 
 
@@ -343,7 +360,9 @@ def main():
     there = {path.name for path in HEADERS.iterdir()} - WITHOUT_NAMES
     if there != set(ORDER):
         sys.exit(f"{HEADERS}: headers unknown or missing: {there ^ set(ORDER)}")
-    headers = [read_header(HEADERS / name, numbers) for name in ORDER]
+    paths = [HEADERS / name for name in ORDER]
+    callback_types = callbacks(paths)
+    headers = [read_header(path, numbers, callback_types) for path in paths]
     for path, lines in ((output / "fortran/src/wfpsf_c.f90", fortran(headers)),
                         (output / "julia/src/LibWfpsf.jl", julia(headers))):
         path.parent.mkdir(parents=True, exist_ok=True)

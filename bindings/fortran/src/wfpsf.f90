@@ -14,11 +14,11 @@
 ! Objects: create, measure or read_fits fills one, destroy empties it; both may be called again, and
 ! an object that goes out of scope is emptied. An object cannot be assigned to another.
 module wfpsf
-    use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
+    use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_null_ptr, c_ptr
     use, intrinsic :: iso_fortran_env, only: real32, real64
     use wfpsf_constants
     implicit none
-    private :: c_null_ptr, c_ptr, real32, real64, handle
+    private :: c_double, c_int32_t, c_null_ptr, c_ptr, real32, real64, handle
 
     ! What all objects have in common: a pointer to the library's own.
     type :: handle
@@ -41,6 +41,7 @@ module wfpsf
         procedure :: reset => options_reset
         procedure :: set_zernikes => options_set_zernikes
         procedure :: set_opd => options_set_opd
+        procedure :: set_progress => options_set_progress
         final :: options_finalize
     end type wfpsf_options
 
@@ -98,6 +99,18 @@ module wfpsf
         final :: image_finalize
     end type wfpsf_image
 
+    ! A spectral energy distribution: how light is spread over wavelength, up to a factor.
+    type, extends(handle) :: wfpsf_sed
+    contains
+        procedure :: create_table => sed_create_table
+        procedure :: create_power_law => sed_create_power_law
+        procedure :: create_black_body => sed_create_black_body
+        procedure :: create_redshifted => sed_create_redshifted
+        procedure :: destroy => sed_destroy
+        procedure :: photon_density => sed_photon_density
+        final :: sed_finalize
+    end type wfpsf_sed
+
     ! The image of a star, pixel response included.
     type, extends(handle) :: wfpsf_psf
     contains
@@ -108,6 +121,7 @@ module wfpsf
         procedure :: add_stars => psf_add_stars
         procedure :: convolve => psf_convolve
         procedure :: create_in_band => psf_create_in_band
+        procedure :: create_chromatic => psf_create_chromatic
         procedure :: get => psf_get
         final :: psf_finalize
     end type wfpsf_psf
@@ -182,9 +196,24 @@ module wfpsf
         end function wfpsf_library_version
     end interface
 
+    abstract interface
+        ! What long work calls now and then, on the thread that asked for it, with the part that is
+        ! done, 0 to 1. Other than 0 as outcome: stop; the work then fails with
+        ! wfpsf_error_cancelled. C calls it: it must have bind(c), and not end by other means than
+        ! its return.
+        function wfpsf_progress(part, user) bind(c) result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            real(c_double), value :: part
+            type(c_ptr), value :: user
+            integer(c_int32_t) :: outcome
+        end function wfpsf_progress
+    end interface
+
     ! Options.
     private :: options_create, options_destroy, options_set_real, options_set_integer
-    private :: options_get, options_reset, options_set_zernikes, options_finalize
+    private :: options_get, options_reset, options_set_zernikes, options_set_opd
+    private :: options_set_progress, options_finalize
     interface
         module subroutine options_create(self, stat, errmsg)
             class(wfpsf_options), intent(inout) :: self
@@ -247,6 +276,26 @@ module wfpsf
             integer, intent(out), optional :: stat
             character(len=*), intent(inout), optional :: errmsg
         end subroutine options_set_opd
+
+        ! A function of the caller's, such as
+        !
+        !     function show(part, user) bind(c) result(outcome)
+        !         real(c_double), value :: part
+        !         type(c_ptr), value :: user
+        !         integer(c_int32_t) :: outcome
+        !         print "(f6.1, a)", 100 * part, " %"
+        !         outcome = 0
+        !     end function show
+        !
+        ! in a module, and what it gets as user: c_loc of a target, or c_null_ptr if left out. An
+        ! internal function must not be called when its host has returned. Without progress: none.
+        module subroutine options_set_progress(self, progress, user, stat, errmsg)
+            class(wfpsf_options), intent(inout) :: self
+            procedure(wfpsf_progress), optional :: progress
+            type(c_ptr), intent(in), optional :: user
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine options_set_progress
 
         impure elemental module subroutine options_finalize(self)
             type(wfpsf_options), intent(inout) :: self
@@ -603,12 +652,69 @@ module wfpsf
         end subroutine image_finalize
     end interface
 
+    ! SEDs.
+    private :: sed_create_table, sed_create_power_law, sed_create_black_body, sed_create_redshifted
+    private :: sed_destroy, sed_photon_density, sed_finalize
+    interface
+        ! Linear between samples at rising wavelengths; the two arrays have one size. unit of the
+        ! density: wfpsf_sed_photons or wfpsf_sed_energy, per unit of wavelength.
+        module subroutine sed_create_table(self, unit, wavelength_nm, density, stat, errmsg)
+            class(wfpsf_sed), intent(inout) :: self
+            integer, intent(in) :: unit
+            real(real64), intent(in), contiguous :: wavelength_nm(:), density(:)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine sed_create_table
+
+        ! A density of wavelength**exponent.
+        module subroutine sed_create_power_law(self, unit, exponent, stat, errmsg)
+            class(wfpsf_sed), intent(inout) :: self
+            integer, intent(in) :: unit
+            real(real64), intent(in) :: exponent
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine sed_create_power_law
+
+        module subroutine sed_create_black_body(self, temperature_k, stat, errmsg)
+            class(wfpsf_sed), intent(inout) :: self
+            real(real64), intent(in) :: temperature_k
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine sed_create_black_body
+
+        ! Another SED with wavelengths 1 + redshift times as long.
+        module subroutine sed_create_redshifted(self, sed, redshift, stat, errmsg)
+            class(wfpsf_sed), intent(inout) :: self
+            type(wfpsf_sed), intent(in) :: sed
+            real(real64), intent(in) :: redshift
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine sed_create_redshifted
+
+        module subroutine sed_destroy(self)
+            class(wfpsf_sed), intent(inout) :: self
+        end subroutine sed_destroy
+
+        ! Photons per unit of wavelength, up to one factor; the two arrays have one size.
+        module subroutine sed_photon_density(self, wavelength_nm, photons, stat, errmsg)
+            class(wfpsf_sed), intent(in) :: self
+            real(real64), intent(in), contiguous :: wavelength_nm(:)
+            real(real64), intent(inout), contiguous :: photons(:)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine sed_photon_density
+
+        impure elemental module subroutine sed_finalize(self)
+            type(wfpsf_sed), intent(inout) :: self
+        end subroutine sed_finalize
+    end interface
+
     ! PSFs.
     private :: psf_create, psf_create_from_mask, psf_destroy, psf_draw, psf_add_stars, &
-        psf_convolve, psf_create_in_band, psf_get, psf_finalize
+        psf_convolve, psf_create_in_band, psf_create_chromatic, psf_get, psf_finalize
     interface
-        ! At the centre of detector sca, 1..18. Options: eps, struts, psf_radius, piston_tilt and
-        ! extra Zernikes.
+        ! At the centre of detector sca, 1..18. Options: eps, struts, psf_radius, piston_tilt,
+        ! jitter_*, charge_diffusion, extra Zernikes, an OPD map and progress.
         module subroutine psf_create(self, instrument, sca, wavelength_nm, options, stat, errmsg)
             class(wfpsf_psf), intent(inout) :: self
             type(wfpsf_instrument), intent(in) :: instrument
@@ -647,6 +753,35 @@ module wfpsf
             integer, intent(out), optional :: stat
             character(len=*), intent(inout), optional :: errmsg
         end subroutine psf_create_in_band
+
+        ! Of a source of many colours, seen through the band: the sum over the photons detected.
+        module subroutine psf_create_chromatic(self, instrument, band, sca, x, y, sed, options, &
+            stat, errmsg)
+            class(wfpsf_psf), intent(inout) :: self
+            type(wfpsf_instrument), intent(in) :: instrument
+            character(len=*), intent(in) :: band
+            integer, intent(in) :: sca
+            real(real64), intent(in) :: x, y
+            type(wfpsf_sed), intent(in) :: sed
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine psf_create_chromatic
+
+        ! One PSF for each of several SEDs, in little more time than one takes. An error empties all
+        ! of psfs, which has the size of seds.
+        module subroutine wfpsf_psf_create_chromatic_each(instrument, band, sca, x, y, seds, psfs, &
+            options, stat, errmsg)
+            type(wfpsf_instrument), intent(in) :: instrument
+            character(len=*), intent(in) :: band
+            integer, intent(in) :: sca
+            real(real64), intent(in) :: x, y
+            type(wfpsf_sed), intent(in) :: seds(:)
+            type(wfpsf_psf), intent(inout) :: psfs(:)
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine wfpsf_psf_create_chromatic_each
 
         module subroutine psf_destroy(self)
             class(wfpsf_psf), intent(inout) :: self

@@ -41,6 +41,8 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_error_moments_outside = -340
     integer(c_int32_t), parameter :: wfpsf_error_moments_stalled = -350
     integer(c_int32_t), parameter :: wfpsf_error_size_not_reached = -400
+    integer(c_int32_t), parameter :: wfpsf_error_cancelled = -500
+    integer(c_int32_t), parameter :: wfpsf_error_memory_limit = -510
     integer(c_int32_t), parameter :: wfpsf_error_no_memory = -900
     integer(c_int32_t), parameter :: wfpsf_error_internal = -910
     integer(c_int32_t), parameter :: wfpsf_error_abi = -920
@@ -52,6 +54,10 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_option_piston_tilt = 130
     integer(c_int32_t), parameter :: wfpsf_option_frame = 140
     integer(c_int32_t), parameter :: wfpsf_option_field_rule = 150
+    integer(c_int32_t), parameter :: wfpsf_option_jitter_xx = 160
+    integer(c_int32_t), parameter :: wfpsf_option_jitter_xy = 161
+    integer(c_int32_t), parameter :: wfpsf_option_jitter_yy = 162
+    integer(c_int32_t), parameter :: wfpsf_option_charge_diffusion = 170
     integer(c_int32_t), parameter :: wfpsf_option_force = 200
     integer(c_int32_t), parameter :: wfpsf_option_ipc_fill = 210
     integer(c_int32_t), parameter :: wfpsf_option_kernel_negative = 220
@@ -81,6 +87,10 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_band_tabulated = 1
     integer(c_int32_t), parameter :: wfpsf_band_paper = 2
 
+    ! sed.h
+    integer(c_int32_t), parameter :: wfpsf_sed_photons = 1
+    integer(c_int32_t), parameter :: wfpsf_sed_energy = 2
+
     ! psf.h
     integer(c_int32_t), parameter :: wfpsf_psf_wavelength_nm = 10
     integer(c_int32_t), parameter :: wfpsf_psf_pixel_scale_arcsec = 20
@@ -92,6 +102,18 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_psf_grid_step_arcsec = 80
     integer(c_int32_t), parameter :: wfpsf_psf_radius = 90
     integer(c_int32_t), parameter :: wfpsf_psf_lit_area_m2 = 100
+    integer(c_int32_t), parameter :: wfpsf_psf_wavelengths = 110
+
+    ! otf.h
+    integer(c_int32_t), parameter :: wfpsf_otf_error_estimate = 10
+    integer(c_int32_t), parameter :: wfpsf_otf_value_error = 20
+    integer(c_int32_t), parameter :: wfpsf_otf_cutoff = 30
+    integer(c_int32_t), parameter :: wfpsf_otf_pixels = 40
+    integer(c_int32_t), parameter :: wfpsf_response_diffraction = 1
+    integer(c_int32_t), parameter :: wfpsf_response_effective = 2
+    integer(c_int32_t), parameter :: wfpsf_order_centred = 1
+    integer(c_int32_t), parameter :: wfpsf_order_wrapped = 2
+    integer(c_int32_t), parameter :: wfpsf_order_half = 3
 
     ! ipc.h
     integer(c_int32_t), parameter :: wfpsf_edge_zero = 0
@@ -132,10 +154,10 @@ end module wfpsf_constants
 ! with c_null_char. An optional argument that is absent is a NULL. Outputs are intent(inout) because
 ! an error leaves them alone.
 module wfpsf_c
-    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int32_t, c_int64_t, c_ptr
+    use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int32_t, c_int64_t, c_ptr
     use wfpsf_constants
     implicit none
-    private :: c_char, c_double, c_int32_t, c_int64_t, c_ptr
+    private :: c_char, c_double, c_funptr, c_int32_t, c_int64_t, c_ptr
 
     interface
         ! version.h
@@ -243,6 +265,16 @@ module wfpsf_c
             real(c_double), intent(in), optional :: coefficients(*)
             integer(c_int32_t) :: outcome
         end function wfpsf_options_set_zernikes
+
+        function wfpsf_options_set_progress(options, progress, user) &
+            bind(c, name="wfpsf_options_set_progress") result(outcome)
+            import :: c_funptr, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: options
+            type(c_funptr), value :: progress
+            type(c_ptr), value :: user
+            integer(c_int32_t) :: outcome
+        end function wfpsf_options_set_progress
 
         function wfpsf_option_describe(key, name, text, kind, standard, smallest, largest) &
             bind(c, name="wfpsf_option_describe") result(outcome)
@@ -464,6 +496,21 @@ module wfpsf_c
             integer(c_int32_t) :: outcome
         end function wfpsf_instrument_zernikes
 
+        function wfpsf_instrument_pupil(instrument, band, sca, options, out, scale_m, axis_x, &
+            axis_y) bind(c, name="wfpsf_instrument_pupil") result(outcome)
+            import :: c_char, c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            character(kind=c_char), intent(in), optional :: band(*)
+            integer(c_int32_t), value :: sca
+            type(c_ptr), value :: options
+            type(c_ptr), value :: out
+            real(c_double), intent(inout), optional :: scale_m
+            real(c_double), intent(inout), optional :: axis_x
+            real(c_double), intent(inout), optional :: axis_y
+            integer(c_int32_t) :: outcome
+        end function wfpsf_instrument_pupil
+
         ! design.h
         function wfpsf_design_create(out) bind(c, name="wfpsf_design_create") result(outcome)
             import :: c_int32_t, c_ptr
@@ -558,6 +605,65 @@ module wfpsf_c
             integer(c_int32_t) :: outcome
         end function wfpsf_instrument_create_from_design
 
+        ! sed.h
+        function wfpsf_sed_create_table(unit, count, wavelength_nm, density, out) &
+            bind(c, name="wfpsf_sed_create_table") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            integer(c_int32_t), value :: unit
+            integer(c_int64_t), value :: count
+            real(c_double), intent(in), optional :: wavelength_nm(*)
+            real(c_double), intent(in), optional :: density(*)
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_sed_create_table
+
+        function wfpsf_sed_create_power_law(unit, exponent, out) &
+            bind(c, name="wfpsf_sed_create_power_law") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            integer(c_int32_t), value :: unit
+            real(c_double), value :: exponent
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_sed_create_power_law
+
+        function wfpsf_sed_create_black_body(temperature_k, out) &
+            bind(c, name="wfpsf_sed_create_black_body") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            real(c_double), value :: temperature_k
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_sed_create_black_body
+
+        function wfpsf_sed_create_redshifted(sed, redshift, out) &
+            bind(c, name="wfpsf_sed_create_redshifted") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: sed
+            real(c_double), value :: redshift
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_sed_create_redshifted
+
+        subroutine wfpsf_sed_destroy(sed) bind(c, name="wfpsf_sed_destroy")
+            import :: c_ptr
+            implicit none
+            type(c_ptr), value :: sed
+        end subroutine wfpsf_sed_destroy
+
+        function wfpsf_sed_photon_density(sed, count, wavelength_nm, photons) &
+            bind(c, name="wfpsf_sed_photon_density") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: sed
+            integer(c_int64_t), value :: count
+            real(c_double), intent(in), optional :: wavelength_nm(*)
+            real(c_double), intent(inout), optional :: photons(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_sed_photon_density
+
         ! psf.h
         function wfpsf_options_set_opd(options, map, scale_m, axis_x, axis_y) &
             bind(c, name="wfpsf_options_set_opd") result(outcome)
@@ -597,6 +703,22 @@ module wfpsf_c
             type(c_ptr), intent(out) :: out
             integer(c_int32_t) :: outcome
         end function wfpsf_psf_create_in_band
+
+        function wfpsf_psf_create_chromatic(instrument, band, sca, x, y, count, seds, options, &
+            out) bind(c, name="wfpsf_psf_create_chromatic") result(outcome)
+            import :: c_char, c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            character(kind=c_char), intent(in), optional :: band(*)
+            integer(c_int32_t), value :: sca
+            real(c_double), value :: x
+            real(c_double), value :: y
+            integer(c_int64_t), value :: count
+            type(c_ptr), intent(in), optional :: seds(*)
+            type(c_ptr), value :: options
+            type(c_ptr), intent(inout) :: out(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_psf_create_chromatic
 
         function wfpsf_psf_create_from_mask(instrument, mask, mask_scale_m, axis_x, axis_y, sca, &
             wavelength_nm, options, out) bind(c, name="wfpsf_psf_create_from_mask") result(outcome)
@@ -646,6 +768,20 @@ module wfpsf_c
             integer(c_int32_t) :: outcome
         end function wfpsf_psf_add_stars
 
+        function wfpsf_psf_convolve(psf, galaxy, x, y, flux, options, image) &
+            bind(c, name="wfpsf_psf_convolve") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: psf
+            type(c_ptr), value :: galaxy
+            real(c_double), value :: x
+            real(c_double), value :: y
+            real(c_double), value :: flux
+            type(c_ptr), value :: options
+            type(c_ptr), value :: image
+            integer(c_int32_t) :: outcome
+        end function wfpsf_psf_convolve
+
         function wfpsf_psf_get(psf, key, value) bind(c, name="wfpsf_psf_get") result(outcome)
             import :: c_double, c_int32_t, c_ptr
             implicit none
@@ -654,6 +790,59 @@ module wfpsf_c
             real(c_double), intent(inout), optional :: value
             integer(c_int32_t) :: outcome
         end function wfpsf_psf_get
+
+        ! otf.h
+        function wfpsf_otf_create(psf, options, out) &
+            bind(c, name="wfpsf_otf_create") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: psf
+            type(c_ptr), value :: options
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_otf_create
+
+        subroutine wfpsf_otf_destroy(otf) bind(c, name="wfpsf_otf_destroy")
+            import :: c_ptr
+            implicit none
+            type(c_ptr), value :: otf
+        end subroutine wfpsf_otf_destroy
+
+        function wfpsf_otf_values(otf, response, count, kx, ky, re, im) &
+            bind(c, name="wfpsf_otf_values") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: otf
+            integer(c_int32_t), value :: response
+            integer(c_int64_t), value :: count
+            real(c_double), intent(in), optional :: kx(*)
+            real(c_double), intent(in), optional :: ky(*)
+            real(c_double), intent(inout), optional :: re(*)
+            real(c_double), intent(inout), optional :: im(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_otf_values
+
+        function wfpsf_otf_grid(otf, response, order, step, re, im) &
+            bind(c, name="wfpsf_otf_grid") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: otf
+            integer(c_int32_t), value :: response
+            integer(c_int32_t), value :: order
+            real(c_double), value :: step
+            type(c_ptr), value :: re
+            type(c_ptr), value :: im
+            integer(c_int32_t) :: outcome
+        end function wfpsf_otf_grid
+
+        function wfpsf_otf_get(otf, key, value) bind(c, name="wfpsf_otf_get") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: otf
+            integer(c_int32_t), value :: key
+            real(c_double), intent(inout), optional :: value
+            integer(c_int32_t) :: outcome
+        end function wfpsf_otf_get
 
         ! ipc.h
         function wfpsf_ipc_kernel_create(alpha, alpha_prime, alpha_plus, options, out) &

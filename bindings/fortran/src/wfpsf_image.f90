@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: GPL-3.0-or-later
 submodule(wfpsf) wfpsf_image_procedures
-    use, intrinsic :: iso_c_binding, only: c_int32_t, c_int64_t, c_intptr_t, c_loc
+    use, intrinsic :: iso_c_binding, only: c_int64_t, c_intptr_t, c_loc
     use wfpsf_c
     use wfpsf_common, only: c_text, report
     implicit none

@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: GPL-3.0-or-later
 submodule(wfpsf) wfpsf_options_procedures
-    use, intrinsic :: iso_c_binding, only: c_int64_t
+    use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int64_t, c_null_funptr
     use wfpsf_c
     use wfpsf_common, only: report
     implicit none
@@ -61,6 +61,17 @@ contains
         call report(wfpsf_options_set_opd(self%pointer, map%pointer, scale_m, axis_x - 1, &
             axis_y - 1), stat, errmsg)
     end procedure options_set_opd
+
+    module procedure options_set_progress
+        type(c_funptr) :: call_back
+        type(c_ptr) :: passed
+
+        call_back = c_null_funptr
+        if (present(progress)) call_back = c_funloc(progress)
+        passed = c_null_ptr
+        if (present(user)) passed = user
+        call report(wfpsf_options_set_progress(self%pointer, call_back, passed), stat, errmsg)
+    end procedure options_set_progress
 
     module procedure options_finalize
         call self%destroy()

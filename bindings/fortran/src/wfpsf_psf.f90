@@ -40,6 +40,36 @@ contains
         call report(status, stat, errmsg)
     end procedure psf_create_in_band
 
+    module procedure psf_create_chromatic
+        type(c_ptr) :: created(1)
+        integer :: status
+
+        created = c_null_ptr
+        status = wfpsf_psf_create_chromatic(instrument%pointer, c_text(band), sca, x - 1, y - 1, &
+            1_c_int64_t, [sed%pointer], pointer_of(options), created)
+        call self%destroy()
+        self%pointer = created(1)
+        call report(status, stat, errmsg)
+    end procedure psf_create_chromatic
+
+    module procedure wfpsf_psf_create_chromatic_each
+        type(c_ptr) :: created(size(psfs))
+        integer(c_int64_t) :: n
+        integer :: i, status
+
+        ! A negative count makes the library refuse arrays of different sizes.
+        n = size(seds, kind=c_int64_t)
+        if (size(psfs, kind=c_int64_t) /= n) n = -1
+        created = c_null_ptr
+        status = wfpsf_psf_create_chromatic(instrument%pointer, c_text(band), sca, x - 1, y - 1, &
+            n, [(seds(i)%pointer, i = 1, size(seds))], pointer_of(options), created)
+        do i = 1, size(psfs)
+            call psfs(i)%destroy()
+            psfs(i)%pointer = created(i)
+        end do
+        call report(status, stat, errmsg)
+    end procedure wfpsf_psf_create_chromatic_each
+
     module procedure psf_destroy
         call wfpsf_psf_destroy(self%pointer)
         self%pointer = c_null_ptr

@@ -57,6 +57,8 @@ const WFPSF_ERROR_MOMENTS_FILLS_IMAGE = Int32(-330)
 const WFPSF_ERROR_MOMENTS_OUTSIDE = Int32(-340)
 const WFPSF_ERROR_MOMENTS_STALLED = Int32(-350)
 const WFPSF_ERROR_SIZE_NOT_REACHED = Int32(-400)
+const WFPSF_ERROR_CANCELLED = Int32(-500)
+const WFPSF_ERROR_MEMORY_LIMIT = Int32(-510)
 const WFPSF_ERROR_NO_MEMORY = Int32(-900)
 const WFPSF_ERROR_INTERNAL = Int32(-910)
 const WFPSF_ERROR_ABI = Int32(-920)
@@ -86,6 +88,10 @@ const WFPSF_OPTION_PSF_RADIUS = Int32(120)
 const WFPSF_OPTION_PISTON_TILT = Int32(130)
 const WFPSF_OPTION_FRAME = Int32(140)
 const WFPSF_OPTION_FIELD_RULE = Int32(150)
+const WFPSF_OPTION_JITTER_XX = Int32(160)
+const WFPSF_OPTION_JITTER_XY = Int32(161)
+const WFPSF_OPTION_JITTER_YY = Int32(162)
+const WFPSF_OPTION_CHARGE_DIFFUSION = Int32(170)
 const WFPSF_OPTION_FORCE = Int32(200)
 const WFPSF_OPTION_IPC_FILL = Int32(210)
 const WFPSF_OPTION_KERNEL_NEGATIVE = Int32(220)
@@ -142,6 +148,12 @@ const wfpsf_options_set_zernikes_pointer = Ref(C_NULL)
 function wfpsf_options_set_zernikes(options, count, coefficients)
     return ccall(wfpsf_options_set_zernikes_pointer[], Int32, (Ptr{Cvoid}, Int64, Ptr{Float64}),
         options, count, coefficients)
+end
+
+const wfpsf_options_set_progress_pointer = Ref(C_NULL)
+function wfpsf_options_set_progress(options, progress, user)
+    return ccall(wfpsf_options_set_progress_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Ptr{Cvoid}),
+        options, progress, user)
 end
 
 const wfpsf_option_describe_pointer = Ref(C_NULL)
@@ -287,6 +299,13 @@ function wfpsf_instrument_zernikes(instrument, sca, capacity, coefficients, coun
         instrument, sca, capacity, coefficients, count)
 end
 
+const wfpsf_instrument_pupil_pointer = Ref(C_NULL)
+function wfpsf_instrument_pupil(instrument, band, sca, options, out, scale_m, axis_x, axis_y)
+    return ccall(wfpsf_instrument_pupil_pointer[], Int32, (Ptr{Cvoid}, Cstring, Int32, Ptr{Cvoid},
+        Ptr{Cvoid}, Ptr{Float64}, Ptr{Float64}, Ptr{Float64}),
+        instrument, band, sca, options, out, scale_m, axis_x, axis_y)
+end
+
 # design.h
 const wfpsf_design_create_pointer = Ref(C_NULL)
 function wfpsf_design_create(out)
@@ -348,6 +367,49 @@ function wfpsf_instrument_create_from_design(design, out)
         design, out)
 end
 
+# sed.h
+const WFPSF_SED_PHOTONS = Int32(1)
+const WFPSF_SED_ENERGY = Int32(2)
+
+const wfpsf_sed_create_table_pointer = Ref(C_NULL)
+function wfpsf_sed_create_table(unit, count, wavelength_nm, density, out)
+    return ccall(wfpsf_sed_create_table_pointer[], Int32, (Int32, Int64, Ptr{Float64}, Ptr{Float64},
+        Ptr{Ptr{Cvoid}}),
+        unit, count, wavelength_nm, density, out)
+end
+
+const wfpsf_sed_create_power_law_pointer = Ref(C_NULL)
+function wfpsf_sed_create_power_law(unit, exponent, out)
+    return ccall(wfpsf_sed_create_power_law_pointer[], Int32, (Int32, Float64, Ptr{Ptr{Cvoid}}),
+        unit, exponent, out)
+end
+
+const wfpsf_sed_create_black_body_pointer = Ref(C_NULL)
+function wfpsf_sed_create_black_body(temperature_k, out)
+    return ccall(wfpsf_sed_create_black_body_pointer[], Int32, (Float64, Ptr{Ptr{Cvoid}}),
+        temperature_k, out)
+end
+
+const wfpsf_sed_create_redshifted_pointer = Ref(C_NULL)
+function wfpsf_sed_create_redshifted(sed, redshift, out)
+    return ccall(wfpsf_sed_create_redshifted_pointer[], Int32, (Ptr{Cvoid}, Float64,
+        Ptr{Ptr{Cvoid}}),
+        sed, redshift, out)
+end
+
+const wfpsf_sed_destroy_pointer = Ref(C_NULL)
+function wfpsf_sed_destroy(sed)
+    return ccall(wfpsf_sed_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
+        sed)
+end
+
+const wfpsf_sed_photon_density_pointer = Ref(C_NULL)
+function wfpsf_sed_photon_density(sed, count, wavelength_nm, photons)
+    return ccall(wfpsf_sed_photon_density_pointer[], Int32, (Ptr{Cvoid}, Int64, Ptr{Float64},
+        Ptr{Float64}),
+        sed, count, wavelength_nm, photons)
+end
+
 # psf.h
 const WFPSF_PSF_WAVELENGTH_NM = Int32(10)
 const WFPSF_PSF_PIXEL_SCALE_ARCSEC = Int32(20)
@@ -359,6 +421,7 @@ const WFPSF_PSF_GRID_SIZE = Int32(70)
 const WFPSF_PSF_GRID_STEP_ARCSEC = Int32(80)
 const WFPSF_PSF_RADIUS = Int32(90)
 const WFPSF_PSF_LIT_AREA_M2 = Int32(100)
+const WFPSF_PSF_WAVELENGTHS = Int32(110)
 
 const wfpsf_options_set_opd_pointer = Ref(C_NULL)
 function wfpsf_options_set_opd(options, map, scale_m, axis_x, axis_y)
@@ -379,6 +442,13 @@ function wfpsf_psf_create_in_band(instrument, band, sca, x, y, wavelength_nm, op
     return ccall(wfpsf_psf_create_in_band_pointer[], Int32, (Ptr{Cvoid}, Cstring, Int32, Float64,
         Float64, Float64, Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
         instrument, band, sca, x, y, wavelength_nm, options, out)
+end
+
+const wfpsf_psf_create_chromatic_pointer = Ref(C_NULL)
+function wfpsf_psf_create_chromatic(instrument, band, sca, x, y, count, seds, options, out)
+    return ccall(wfpsf_psf_create_chromatic_pointer[], Int32, (Ptr{Cvoid}, Cstring, Int32, Float64,
+        Float64, Int64, Ptr{Ptr{Cvoid}}, Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        instrument, band, sca, x, y, count, seds, options, out)
 end
 
 const wfpsf_psf_create_from_mask_pointer = Ref(C_NULL)
@@ -409,10 +479,60 @@ function wfpsf_psf_add_stars(psf, count, x, y, flux, options, image)
         psf, count, x, y, flux, options, image)
 end
 
+const wfpsf_psf_convolve_pointer = Ref(C_NULL)
+function wfpsf_psf_convolve(psf, galaxy, x, y, flux, options, image)
+    return ccall(wfpsf_psf_convolve_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Float64, Float64,
+        Float64, Ptr{Cvoid}, Ptr{Cvoid}),
+        psf, galaxy, x, y, flux, options, image)
+end
+
 const wfpsf_psf_get_pointer = Ref(C_NULL)
 function wfpsf_psf_get(psf, key, value)
     return ccall(wfpsf_psf_get_pointer[], Int32, (Ptr{Cvoid}, Int32, Ptr{Float64}),
         psf, key, value)
+end
+
+# otf.h
+const WFPSF_OTF_ERROR_ESTIMATE = Int32(10)
+const WFPSF_OTF_VALUE_ERROR = Int32(20)
+const WFPSF_OTF_CUTOFF = Int32(30)
+const WFPSF_OTF_PIXELS = Int32(40)
+const WFPSF_RESPONSE_DIFFRACTION = Int32(1)
+const WFPSF_RESPONSE_EFFECTIVE = Int32(2)
+const WFPSF_ORDER_CENTRED = Int32(1)
+const WFPSF_ORDER_WRAPPED = Int32(2)
+const WFPSF_ORDER_HALF = Int32(3)
+
+const wfpsf_otf_create_pointer = Ref(C_NULL)
+function wfpsf_otf_create(psf, options, out)
+    return ccall(wfpsf_otf_create_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        psf, options, out)
+end
+
+const wfpsf_otf_destroy_pointer = Ref(C_NULL)
+function wfpsf_otf_destroy(otf)
+    return ccall(wfpsf_otf_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
+        otf)
+end
+
+const wfpsf_otf_values_pointer = Ref(C_NULL)
+function wfpsf_otf_values(otf, response, count, kx, ky, re, im)
+    return ccall(wfpsf_otf_values_pointer[], Int32, (Ptr{Cvoid}, Int32, Int64, Ptr{Float64},
+        Ptr{Float64}, Ptr{Float64}, Ptr{Float64}),
+        otf, response, count, kx, ky, re, im)
+end
+
+const wfpsf_otf_grid_pointer = Ref(C_NULL)
+function wfpsf_otf_grid(otf, response, order, step, re, im)
+    return ccall(wfpsf_otf_grid_pointer[], Int32, (Ptr{Cvoid}, Int32, Int32, Float64, Ptr{Cvoid},
+        Ptr{Cvoid}),
+        otf, response, order, step, re, im)
+end
+
+const wfpsf_otf_get_pointer = Ref(C_NULL)
+function wfpsf_otf_get(otf, key, value)
+    return ccall(wfpsf_otf_get_pointer[], Int32, (Ptr{Cvoid}, Int32, Ptr{Float64}),
+        otf, key, value)
 end
 
 # ipc.h
@@ -571,6 +691,7 @@ const pointers = [
     :wfpsf_options_get => wfpsf_options_get_pointer,
     :wfpsf_options_reset => wfpsf_options_reset_pointer,
     :wfpsf_options_set_zernikes => wfpsf_options_set_zernikes_pointer,
+    :wfpsf_options_set_progress => wfpsf_options_set_progress_pointer,
     :wfpsf_option_describe => wfpsf_option_describe_pointer,
     :wfpsf_image_create => wfpsf_image_create_pointer,
     :wfpsf_image_wrap => wfpsf_image_wrap_pointer,
@@ -591,6 +712,7 @@ const pointers = [
     :wfpsf_instrument_band => wfpsf_instrument_band_pointer,
     :wfpsf_instrument_throughput => wfpsf_instrument_throughput_pointer,
     :wfpsf_instrument_zernikes => wfpsf_instrument_zernikes_pointer,
+    :wfpsf_instrument_pupil => wfpsf_instrument_pupil_pointer,
     :wfpsf_design_create => wfpsf_design_create_pointer,
     :wfpsf_design_destroy => wfpsf_design_destroy_pointer,
     :wfpsf_design_set_telescope => wfpsf_design_set_telescope_pointer,
@@ -600,14 +722,27 @@ const pointers = [
     :wfpsf_design_set_field => wfpsf_design_set_field_pointer,
     :wfpsf_design_add_band => wfpsf_design_add_band_pointer,
     :wfpsf_instrument_create_from_design => wfpsf_instrument_create_from_design_pointer,
+    :wfpsf_sed_create_table => wfpsf_sed_create_table_pointer,
+    :wfpsf_sed_create_power_law => wfpsf_sed_create_power_law_pointer,
+    :wfpsf_sed_create_black_body => wfpsf_sed_create_black_body_pointer,
+    :wfpsf_sed_create_redshifted => wfpsf_sed_create_redshifted_pointer,
+    :wfpsf_sed_destroy => wfpsf_sed_destroy_pointer,
+    :wfpsf_sed_photon_density => wfpsf_sed_photon_density_pointer,
     :wfpsf_options_set_opd => wfpsf_options_set_opd_pointer,
     :wfpsf_psf_create => wfpsf_psf_create_pointer,
     :wfpsf_psf_create_in_band => wfpsf_psf_create_in_band_pointer,
+    :wfpsf_psf_create_chromatic => wfpsf_psf_create_chromatic_pointer,
     :wfpsf_psf_create_from_mask => wfpsf_psf_create_from_mask_pointer,
     :wfpsf_psf_destroy => wfpsf_psf_destroy_pointer,
     :wfpsf_psf_draw => wfpsf_psf_draw_pointer,
     :wfpsf_psf_add_stars => wfpsf_psf_add_stars_pointer,
+    :wfpsf_psf_convolve => wfpsf_psf_convolve_pointer,
     :wfpsf_psf_get => wfpsf_psf_get_pointer,
+    :wfpsf_otf_create => wfpsf_otf_create_pointer,
+    :wfpsf_otf_destroy => wfpsf_otf_destroy_pointer,
+    :wfpsf_otf_values => wfpsf_otf_values_pointer,
+    :wfpsf_otf_grid => wfpsf_otf_grid_pointer,
+    :wfpsf_otf_get => wfpsf_otf_get_pointer,
     :wfpsf_ipc_kernel_create => wfpsf_ipc_kernel_create_pointer,
     :wfpsf_ipc_kernel_create_taps => wfpsf_ipc_kernel_create_taps_pointer,
     :wfpsf_ipc_kernel_create_wfc3 => wfpsf_ipc_kernel_create_wfc3_pointer,

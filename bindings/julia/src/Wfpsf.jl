@@ -30,7 +30,8 @@ export WfpsfError, options,
     Instrument, constant, constants, band, bands, throughput, zernikes, pupil,
     Image, record, set_record!, read_fits, write_fits,
     interleave, interleave!, deinterleave, deinterleave!,
-    PSF, draw, draw!, add_stars!, convolve!,
+    SED, power_law, black_body, redshifted, photon_density,
+    PSF, psfs, draw, draw!, add_stars!, convolve!,
     OTF, otf_grid,
     IPCKernel, wfc3_kernel, correction, flipped, taps, apply_ipc, apply_ipc!,
     Moments, adaptive_moments, unweighted_moments,
@@ -48,6 +49,7 @@ include("instrument.jl")
 include("image.jl")
 include("interleave.jl")
 include("pupil.jl")
+include("sed.jl")
 include("psf.jl")
 include("otf.jl")
 include("ipc.jl")

@@ -21,6 +21,9 @@ end
 
 Base.isopen(handle::Handle) = getfield(handle, :pointer) != C_NULL
 
+# For the use under `GC.@preserve handles`.
+handle_pointers(handles) = Ptr{Cvoid}[Base.unsafe_convert(Ptr{Cvoid}, handle) for handle in handles]
+
 # The pointer that `call` stores into its argument.
 function created(call)
     out = Ref(C_NULL)

@@ -2,8 +2,6 @@
 
 const DITHERS = constants_of("WFPSF_DITHER_")
 
-handle_pointers(images) = Ptr{Cvoid}[Base.unsafe_convert(Ptr{Cvoid}, image) for image in images]
-
 function check_offsets(images, dx, dy)
     size(images) == size(dx) == size(dy) || throw(DimensionMismatch(
         "images, dx and dy of sizes $(size(images)), $(size(dx)), $(size(dy)): must be one size"))

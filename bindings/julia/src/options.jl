@@ -11,9 +11,29 @@ end
 # Positions count from 1 here, from 0 in the library.
 const POSITIONS = (:moments_guess_x, :moments_guess_y)
 
+# A function of the caller's, and the exception that it ended with, if any.
+mutable struct Progress
+    tell::Any
+    failure::Any
+end
+
+# The library calls this one. Exceptions must not pass through C: they stop the work and are thrown
+# afterwards.
+function told_to_stop(part::Float64, user::Ptr{Cvoid})::Int32
+    progress = unsafe_pointer_to_objref(user)::Progress
+    try
+        return progress.tell(part) === false
+    catch failure
+        progress.failure = failure
+        return true
+    end
+end
+
 mutable struct Options <: Handle
     pointer::Ptr{Cvoid}
-    Options() = finalizer(close, new(created(LibWfpsf.wfpsf_options_create)))
+    progress::Progress # the library holds its address
+    Options() = finalizer(close, new(created(LibWfpsf.wfpsf_options_create),
+                                     Progress(nothing, nothing)))
 end
 
 destroy(::Options, pointer) = LibWfpsf.wfpsf_options_destroy(pointer)
@@ -46,6 +66,11 @@ function set!(options, name, value)
     elseif name === :opd
         check(LibWfpsf.wfpsf_options_set_opd(options, value.map, value.scale_m, value.axis_x - 1,
                                              value.axis_y - 1))
+    elseif name === :progress
+        options.progress.tell = value
+        check(LibWfpsf.wfpsf_options_set_progress(
+            options, @cfunction(told_to_stop, Int32, (Float64, Ptr{Cvoid})),
+            pointer_from_objref(options.progress)))
     elseif describe(name).integer
         check(LibWfpsf.wfpsf_options_set_integer(options, OPTIONS[name], value))
     else
@@ -66,6 +91,9 @@ function with_options(call, taken, given)
             value === nothing || set!(options, name, value)
         end
         return call(options)
+    catch
+        options.progress.failure === nothing || throw(options.progress.failure)
+        rethrow()
     finally
         close(options)
     end

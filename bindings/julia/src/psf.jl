@@ -1,16 +1,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 
 const PSF_PROPERTIES = constants_of("WFPSF_PSF_")
-const PSF_OPTIONS = (:eps, :struts, :psf_radius, :piston_tilt, :frame, :field_rule, :zernikes, :opd)
+const PSF_OPTIONS = (:eps, :struts, :psf_radius, :piston_tilt, :frame, :field_rule, :jitter_xx,
+                     :jitter_xy, :jitter_yy, :charge_diffusion, :zernikes, :opd, :progress)
 const STAR_OPTIONS = (:threads, :force)
 
 """
     PSF(instrument, sca, wavelength_nm; options...)
     PSF(instrument, band, sca, x, y; wavelength_nm = 0, options...)
+    PSF(instrument, band, sca, x, y, sed; options...)
     PSF(instrument, sca, wavelength_nm, mask; mask_scale_m, axis_x, axis_y, options...)
     PSF(f, ...)
 
-The monochromatic effective PSF at the centre of detector `sca`: the diffraction image of a star,
+The effective PSF at the centre of detector `sca`: the diffraction image of a star,
 averaged over the native pixel. Immutable: threads may share it. The instrument may be closed
 afterwards.
 
@@ -19,53 +21,80 @@ Options: `eps` (largest error of any pixel, in units of the stamp's peak), `stru
 order (waves rms at the instrument's reference wavelength), and `opd = (map = image, scale_m = s,
 axis_x = x, axis_y = y)`, an [`Image`](@ref) of optical path differences in metres, `s` metres from
 sample to sample, with the optical axis at sample (x, y), the first one's centre being (1, 1).
+`jitter_xx`, `jitter_xy`, `jitter_yy` (arcsec²) are the covariance of the telescope's jitter,
+`charge_diffusion` (native pixels) the standard deviation of the detector's. `progress` is a
+function that long work calls now and then with the part that is done, 0 to 1: if it returns
+`false`, the work stops with a [`WfpsfError`](@ref) of code `WFPSF_ERROR_CANCELLED`; if it throws,
+the work stops with that exception.
 
 The second form is the PSF at (x, y), pixels of the detector (the first one's centre is (1, 1)), and
 takes the pupil that the band is used with; `"roman-c9"` needs it. `wavelength_nm = 0` is the band's
 effective wavelength. Its options also are `frame` (0: science coordinates, 1: exit pupil) and
 `field_rule` (0: all field points are met, 1: bilinear between the corners).
 
-The third form takes the pupil from an image of transmissions with pixels of `mask_scale_m` metres
+The third form is the PSF of a source of many colours, seen through the band: the sum of
+monochromatic ones over the photons detected, an [`SED`](@ref) times the band's throughput, at as
+many wavelengths as `eps` needs. [`psfs`](@ref) makes those of several SEDs.
+
+The fourth form takes the pupil from an image of transmissions with pixels of `mask_scale_m` metres
 and the optical axis at (`axis_x`, `axis_y`), the centre of the mask's first pixel being (1, 1). It
 takes a second for a mask of 4096 × 4096.
 
-Properties are read as `psf.error_estimate`: `wavelength_nm`, `pixel_scale_arcsec`,
-`error_estimate` (numerical error of any pixel, in units of the peak), `model_error` (of the pupil's
-geometry against the published mask, same units), `peak` (largest fraction of the light in one
-native pixel), `nodes`, `grid_size`, `grid_step_arcsec`, `radius`, `lit_area_m2`.
+Properties are read as `psf.error_estimate`: `wavelength_nm` (of many, the mean by photons
+detected), `pixel_scale_arcsec`, `error_estimate` (numerical error of any pixel, in units of the
+peak), `model_error` (of the pupil's geometry against the published mask, same units), `peak`
+(largest fraction of the light in one native pixel), `nodes`, `grid_size`, `grid_step_arcsec`,
+`radius`, `lit_area_m2`, `wavelengths` (how many the PSF is a sum over).
 """
 mutable struct PSF <: Handle
     pointer::Ptr{Cvoid}
+    PSF(pointer::Ptr{Cvoid}) = finalizer(close, new(pointer))
+end
 
-    function PSF(instrument::Instrument, sca::Integer, wavelength_nm::Real; keywords...)
-        pointer = with_options(PSF_OPTIONS, keywords) do options
-            created() do out
-                LibWfpsf.wfpsf_psf_create(instrument, sca, wavelength_nm, options, out)
-            end
-        end
-        return finalizer(close, new(pointer))
+function PSF(instrument::Instrument, sca::Integer, wavelength_nm::Real; keywords...)
+    with_options(PSF_OPTIONS, keywords) do options
+        PSF(created() do out
+            LibWfpsf.wfpsf_psf_create(instrument, sca, wavelength_nm, options, out)
+        end)
     end
+end
 
-    function PSF(instrument::Instrument, band::AbstractString, sca::Integer, x::Real, y::Real;
-                 wavelength_nm::Real = 0, keywords...)
-        pointer = with_options(PSF_OPTIONS, keywords) do options
-            created() do out
-                LibWfpsf.wfpsf_psf_create_in_band(instrument, band, sca, x - 1, y - 1,
-                                                  wavelength_nm, options, out)
-            end
-        end
-        return finalizer(close, new(pointer))
+function PSF(instrument::Instrument, band::AbstractString, sca::Integer, x::Real, y::Real;
+             wavelength_nm::Real = 0, keywords...)
+    with_options(PSF_OPTIONS, keywords) do options
+        PSF(created() do out
+            LibWfpsf.wfpsf_psf_create_in_band(instrument, band, sca, x - 1, y - 1, wavelength_nm,
+                                              options, out)
+        end)
     end
+end
 
-    function PSF(instrument::Instrument, sca::Integer, wavelength_nm::Real, mask::Image;
-                 mask_scale_m::Real, axis_x::Real, axis_y::Real, keywords...)
-        pointer = with_options(PSF_OPTIONS, keywords) do options
-            created() do out
-                LibWfpsf.wfpsf_psf_create_from_mask(instrument, mask, mask_scale_m, axis_x - 1,
-                                                    axis_y - 1, sca, wavelength_nm, options, out)
-            end
-        end
-        return finalizer(close, new(pointer))
+PSF(instrument::Instrument, band::AbstractString, sca::Integer, x::Real, y::Real, sed::SED;
+    keywords...) = only(psfs(instrument, band, sca, x, y, [sed]; keywords...))
+
+function PSF(instrument::Instrument, sca::Integer, wavelength_nm::Real, mask::Image;
+             mask_scale_m::Real, axis_x::Real, axis_y::Real, keywords...)
+    with_options(PSF_OPTIONS, keywords) do options
+        PSF(created() do out
+            LibWfpsf.wfpsf_psf_create_from_mask(instrument, mask, mask_scale_m, axis_x - 1,
+                                                axis_y - 1, sca, wavelength_nm, options, out)
+        end)
+    end
+end
+
+"""
+    psfs(instrument, band, sca, x, y, seds; options...)
+
+A vector of the [`PSF`](@ref)s of a vector of [`SED`](@ref)s, which share their monochromatic
+images: many cost little more than one.
+"""
+function psfs(instrument::Instrument, band::AbstractString, sca::Integer, x::Real, y::Real,
+              seds::AbstractVector{SED}; keywords...)
+    with_options(PSF_OPTIONS, keywords) do options
+        out = fill(C_NULL, length(seds))
+        GC.@preserve seds check(LibWfpsf.wfpsf_psf_create_chromatic(
+            instrument, band, sca, x - 1, y - 1, length(seds), handle_pointers(seds), options, out))
+        return PSF.(out)
     end
 end
 

@@ -9,7 +9,7 @@ known = Dict(option.name => option for option in options())
 # Every option is taken by some function, and no function takes an unknown one.
 taken = (Wfpsf.PSF_OPTIONS..., Wfpsf.STAR_OPTIONS..., Wfpsf.MOMENTS_OPTIONS..., Wfpsf.SIZE_OPTIONS..., :kernel_negative,
          :kernel_normalise, :ipc_fill, :fits_overwrite)
-@test issetequal(taken, (keys(known)..., :zernikes, :opd))
+@test issetequal(taken, (keys(known)..., :zernikes, :opd, :progress))
 
 instrument = Instrument()
 @test_throws ArgumentError PSF(instrument, 7, 1292; moments_tolerance = 1e-3)

@@ -23,7 +23,8 @@ end
 
 @testset "Wfpsf" begin
     @testset "$subject" for subject in ("handle", "options", "instrument", "design", "image",
-                                        "interleave", "psf", "otf", "ipc", "moments", "size")
+                                        "interleave", "sed", "psf", "colours", "otf", "ipc",
+                                        "moments", "size")
         include("$subject.jl")
     end
 end
