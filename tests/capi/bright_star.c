@@ -58,7 +58,7 @@ int main(void) {
                     wfpsf_psf_add_bright_star(small, star_x, star_y, 3, options, target));
         CHECK(are_equal(added, wide, side * side));
         CHECK_OK(wfpsf_image_set_record(target, 1, 0.11, WFPSF_EFFECT_IPC));
-        CHECK_FAILS(WFPSF_ERROR_ALREADY_APPLIED, "ipc",
+        CHECK_FAILS(WFPSF_ERROR_ALREADY_APPLIED, "interpixel",
                     wfpsf_psf_add_bright_star(small, 0, 0, 1, NULL, target));
         CHECK_OK(wfpsf_image_set_record(target, 1, 0.2, 0));
         CHECK_FAILS(WFPSF_ERROR_ARGUMENT, "0.2",

@@ -71,6 +71,7 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_option_size_bandwidth = 410
     integer(c_int32_t), parameter :: wfpsf_option_fits_overwrite = 500
     integer(c_int32_t), parameter :: wfpsf_option_threads = 600
+    integer(c_int32_t), parameter :: wfpsf_option_memory_limit = 610
     integer(c_int32_t), parameter :: wfpsf_option_real = 1
     integer(c_int32_t), parameter :: wfpsf_option_integer = 2
 
@@ -742,7 +743,7 @@ module wfpsf_c
             type(c_ptr), value :: psf
         end subroutine wfpsf_psf_destroy
 
-        function wfpsf_psf_draw(psf, x, y, flux, image) &
+        function wfpsf_psf_draw(psf, x, y, flux, options, image) &
             bind(c, name="wfpsf_psf_draw") result(outcome)
             import :: c_double, c_int32_t, c_ptr
             implicit none
@@ -750,9 +751,36 @@ module wfpsf_c
             real(c_double), value :: x
             real(c_double), value :: y
             real(c_double), value :: flux
+            type(c_ptr), value :: options
             type(c_ptr), value :: image
             integer(c_int32_t) :: outcome
         end function wfpsf_psf_draw
+
+        function wfpsf_psf_add_bright_star(psf, x, y, flux, options, image) &
+            bind(c, name="wfpsf_psf_add_bright_star") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: psf
+            real(c_double), value :: x
+            real(c_double), value :: y
+            real(c_double), value :: flux
+            type(c_ptr), value :: options
+            type(c_ptr), value :: image
+            integer(c_int32_t) :: outcome
+        end function wfpsf_psf_add_bright_star
+
+        function wfpsf_psf_draw_memory(psf, x, y, image, least, most) &
+            bind(c, name="wfpsf_psf_draw_memory") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: psf
+            real(c_double), value :: x
+            real(c_double), value :: y
+            type(c_ptr), value :: image
+            integer(c_int64_t), intent(inout), optional :: least
+            integer(c_int64_t), intent(inout), optional :: most
+            integer(c_int32_t) :: outcome
+        end function wfpsf_psf_draw_memory
 
         function wfpsf_psf_add_stars(psf, count, x, y, flux, options, image) &
             bind(c, name="wfpsf_psf_add_stars") result(outcome)

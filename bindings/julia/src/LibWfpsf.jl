@@ -105,6 +105,7 @@ const WFPSF_OPTION_SIZE_TOTAL_FLUX = Int32(400)
 const WFPSF_OPTION_SIZE_BANDWIDTH = Int32(410)
 const WFPSF_OPTION_FITS_OVERWRITE = Int32(500)
 const WFPSF_OPTION_THREADS = Int32(600)
+const WFPSF_OPTION_MEMORY_LIMIT = Int32(610)
 const WFPSF_OPTION_REAL = Int32(1)
 const WFPSF_OPTION_INTEGER = Int32(2)
 
@@ -466,10 +467,24 @@ function wfpsf_psf_destroy(psf)
 end
 
 const wfpsf_psf_draw_pointer = Ref(C_NULL)
-function wfpsf_psf_draw(psf, x, y, flux, image)
+function wfpsf_psf_draw(psf, x, y, flux, options, image)
     return ccall(wfpsf_psf_draw_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64, Float64,
-        Ptr{Cvoid}),
-        psf, x, y, flux, image)
+        Ptr{Cvoid}, Ptr{Cvoid}),
+        psf, x, y, flux, options, image)
+end
+
+const wfpsf_psf_add_bright_star_pointer = Ref(C_NULL)
+function wfpsf_psf_add_bright_star(psf, x, y, flux, options, image)
+    return ccall(wfpsf_psf_add_bright_star_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64, Float64,
+        Ptr{Cvoid}, Ptr{Cvoid}),
+        psf, x, y, flux, options, image)
+end
+
+const wfpsf_psf_draw_memory_pointer = Ref(C_NULL)
+function wfpsf_psf_draw_memory(psf, x, y, image, least, most)
+    return ccall(wfpsf_psf_draw_memory_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64, Ptr{Cvoid},
+        Ptr{Int64}, Ptr{Int64}),
+        psf, x, y, image, least, most)
 end
 
 const wfpsf_psf_add_stars_pointer = Ref(C_NULL)
@@ -735,6 +750,8 @@ const pointers = [
     :wfpsf_psf_create_from_mask => wfpsf_psf_create_from_mask_pointer,
     :wfpsf_psf_destroy => wfpsf_psf_destroy_pointer,
     :wfpsf_psf_draw => wfpsf_psf_draw_pointer,
+    :wfpsf_psf_add_bright_star => wfpsf_psf_add_bright_star_pointer,
+    :wfpsf_psf_draw_memory => wfpsf_psf_draw_memory_pointer,
     :wfpsf_psf_add_stars => wfpsf_psf_add_stars_pointer,
     :wfpsf_psf_convolve => wfpsf_psf_convolve_pointer,
     :wfpsf_psf_get => wfpsf_psf_get_pointer,
