@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "optics/colours.hpp"
 
-#include "numerics/quadrature.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <utility>
 
 namespace wfpsf {
 
@@ -24,19 +23,6 @@ Shares shares_of(double eps, const Spectrum &spectrum) {
 double brightness(double path, double wavelength) {
     const double phase = pi * path / wavelength;
     return 1 / (1 + phase * phase);
-}
-
-size_t wavelengths_for(const Spectrum &spectrum, double path, double eps) {
-    constexpr double soft_edges = 0.82; // of a band: they let so many do
-    const auto [blue, red] = std::ranges::minmax(spectrum.wavelength);
-    int points = 3;
-    for (double part = 1; part > 1e-3; part *= 0.8) {
-        const double tolerance = eps / brightness(part * path, blue);
-        const double turns = pi * part * path * (1 / blue - 1 / red);
-        if (tolerance < 1)
-            points = std::max(points, gauss_legendre_points(turns, std::min(0.1, tolerance)));
-    }
-    return static_cast<size_t>(soft_edges * points + 0.5);
 }
 
 FringeErrors::FringeErrors(const WavelengthRule &rule, const Spectrum &spectrum,
@@ -71,6 +57,18 @@ double FringeErrors::of_image(double wavelength) const {
         most =
             std::max(most, worst_[i] * brightness(step_ * static_cast<double>(i - 1), wavelength));
     return most;
+}
+
+ColourChoice choose_wavelengths(const Spectrum &spectrum, double longest_path, double eps) {
+    const auto [blue, red] = std::ranges::minmax(spectrum.wavelength);
+    const double turns = std::numbers::pi * longest_path * (1 / blue - 1 / red);
+    for (auto n = static_cast<size_t>(3 + turns / 6);; n += 1 + n / 16) {
+        WavelengthRule rule(spectrum, n);
+        const double error =
+            rule.exact() ? 0 : FringeErrors(rule, spectrum, longest_path).of_image(blue);
+        if (error <= eps)
+            return {std::move(rule), error};
+    }
 }
 
 } // namespace wfpsf

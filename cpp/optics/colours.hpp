@@ -19,10 +19,6 @@ Shares shares_of(double eps, const Spectrum &spectrum);
 // so large, in units of the peak: spikes fall as the square of the radius, rings as the cube.
 double brightness(double path, double wavelength);
 
-// How many wavelengths the image needs, about, up to where the path is so long: at its corner it
-// changes fastest with colour, nearer to the core it is brighter.
-size_t wavelengths_for(const Spectrum &spectrum, double path, double eps);
-
 // What a rule's sum over a spectrum misses of a wave in 1 / wavelength, by optical path difference:
 // of any wave up to that path, since light at a distance from the axis mixes them all.
 class FringeErrors {
@@ -37,5 +33,14 @@ class FringeErrors {
     double step_; // of the path
     std::vector<double> worst_;
 };
+
+// As few wavelengths as an image needs out to where the path is so long, by what is known of it
+// beforehand: far out it changes fastest with colour, near the core it is brightest. Errors in
+// units of the peak.
+struct ColourChoice {
+    WavelengthRule rule;
+    double error;
+};
+ColourChoice choose_wavelengths(const Spectrum &spectrum, double longest_path, double eps);
 
 } // namespace wfpsf

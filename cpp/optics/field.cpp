@@ -168,15 +168,13 @@ std::vector<Field> make_fields(const Optics &optics, std::span<const Light> ligh
     const double ratio = 2 * (1 + 1.7 * optics.aperture->area() * pixel * pixel);
     const auto [for_colour, for_the_rest] = shares_of(settings.eps, all);
     double tolerance = for_the_rest / ratio;
-    size_t n = 0;
+    double for_rule = for_colour / 3;
     for (int count = 0;; ++count) {
         const ImageMaker maker(optics, settings, blue, radius, tolerance);
         manners.require_memory(maker.memory(lights.size()), "a field of that radius");
         const std::vector<Spectrum> spectra = colours(maker.longest_path());
         all = together(spectra);
-        if (n == 0)
-            n = wavelengths_for(all, maker.longest_path(), for_colour);
-        const WavelengthRule rule(all, n);
+        const WavelengthRule rule = choose_wavelengths(all, maker.longest_path(), for_rule).rule;
         Attempt made = attempt(maker, rule, spectra, manners.progress);
         const bool good = made.error <= for_the_rest && made.colour_error <= for_colour;
         if (good || count == 4 || tolerance < 1e-15)
@@ -184,7 +182,7 @@ std::vector<Field> make_fields(const Optics &optics, std::span<const Light> ligh
         if (made.error > for_the_rest)
             tolerance *= 0.7 * for_the_rest / made.error;
         if (made.colour_error > for_colour)
-            n = rule.size() * 6 / 5 + 2;
+            for_rule /= 3;
     }
 }
 

@@ -72,20 +72,6 @@ class Plan {
     StampSize size_;
 };
 
-// Wavelengths by what is known of the image beforehand.
-WavelengthRule choose_wavelengths(const Plan &plan, const Spectrum &spectrum, double &error) {
-    const double path = plan.maker().longest_path();
-    for (size_t n = wavelengths_for(spectrum, path, plan.for_colour());; n += 1 + n / 10) {
-        WavelengthRule rule(spectrum, n);
-        error = rule.exact()
-                    ? 0
-                    : plan.in_peaks(plan.maker().unaberrated_peak(plan.blue()) *
-                                    FringeErrors(rule, spectrum, path).of_image(plan.blue()));
-        if (error <= plan.for_colour())
-            return rule;
-    }
-}
-
 // Adds rows first..first+image.ny-1 of the stamp, of which `image` holds those alone.
 template <class T>
 void add_rows(const Plan &plan, const DiffractionStrips &strips, const Star &star, double scale,
@@ -133,8 +119,9 @@ double add_large_stamp(const Optics &optics, const Light &light, const PsfSettin
     const int64_t height = plan.rows_within(manners.memory_limit);
     const ImageMaker &maker = plan.maker();
     const Spectrum spectrum = light(maker.longest_path());
-    double colour_error = 0;
-    const WavelengthRule rule = choose_wavelengths(plan, spectrum, colour_error);
+    const double in_peaks = plan.in_peaks(maker.unaberrated_peak(plan.blue()));
+    const auto [rule, colour_error] =
+        choose_wavelengths(spectrum, maker.longest_path(), plan.for_colour() / in_peaks);
     const std::vector<double> weights = rule.weights(spectrum);
 
     const auto n = static_cast<double>(size.oversampling);
@@ -157,7 +144,7 @@ double add_large_stamp(const Optics &optics, const Light &light, const PsfSettin
         error += at_peak * strips->error();
         unaberrated_peak += at_peak;
     }
-    return plan.in_peaks(error + unaberrated_peak * maker.filter_error()) + colour_error;
+    return plan.in_peaks(error + unaberrated_peak * maker.filter_error()) + in_peaks * colour_error;
 }
 
 template double add_large_stamp(const Optics &, const Light &, const PsfSettings &, double,
