@@ -14,8 +14,9 @@ struct Timing {
     int runs = 0;
 };
 
-// Runs a body once to warm up and then as often as fits half a second, 3 to 1000 times.
-Timing time(const std::function<void()> &body);
+// Runs a body once to warm up and then as often as fits half a second, `least` to 1000 times. A
+// single run is not warmed up.
+Timing time(const std::function<void()> &body, int least = 3);
 
 struct Measured {
     Timing timing;
@@ -31,6 +32,7 @@ struct Case {
 };
 
 std::vector<Case> psf_cases();
+std::vector<Case> wide_psf_cases();
 std::vector<Case> ipc_cases();
 std::vector<Case> moments_cases();
 

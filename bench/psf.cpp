@@ -105,8 +105,8 @@ Case roman_case(const char *band, double band_wavelength) {
             }};
 }
 
-Case draw_case(const char *name, double eps, int64_t n, int64_t oversampling, double target_s,
-               bool with_model) {
+Case draw_case(const std::string &name, double eps, int64_t n, int64_t oversampling,
+               double target_s, bool with_model) {
     return {name, "largest pixel error / peak pixel", target_s, eps, [=] {
                 Plane<double> image(n, n);
                 const double star = static_cast<double>(n - 1) / 2 + 0.23;
@@ -122,6 +122,12 @@ Case draw_case(const char *name, double eps, int64_t n, int64_t oversampling, do
                 m.error = draw_error(psf, c5_truth(), n, oversampling);
                 return m;
             }};
+}
+
+Case stamp_case(double eps, double target_s) {
+    char name[64];
+    std::snprintf(name, sizeof name, "star stamp 32^2, model built, eps %.0e", eps);
+    return draw_case(name, eps, 32, 1, target_s, false);
 }
 
 // Stars all over a detector, each +-16 native pixels; the error is that of one of them by itself.
@@ -144,12 +150,21 @@ Case stars_case(const char *name, int64_t count, int threads) {
 } // namespace
 
 std::vector<Case> psf_cases() {
-    return {model_case(1e-3, 0),
+    return {model_case(1e-2, 0),
+            model_case(1e-3, 0),
+            model_case(1e-4, 0),
+            model_case(1e-5, 0),
             model_case(1e-6, 2.5e-3),
+            model_case(1e-7, 0),
+            model_case(1e-8, 0),
+            model_case(1e-9, 0),
             model_case(1e-10, 5e-3),
             roman_case("J129", 1292.11e-9),
             roman_case("F184", 1837.3e-9),
-            draw_case("star stamp 32^2, model built, eps 1e-5", 1e-5, 32, 1, 5e-6, false),
+            stamp_case(1e-3, 0),
+            stamp_case(1e-5, 5e-6),
+            stamp_case(1e-7, 0),
+            stamp_case(1e-9, 0),
             draw_case("effective PSF 512^2 at pixel/32 with its model, eps 1e-6", 1e-6, 512, 32,
                       10e-3, true),
             stars_case("1e4 stars on 4088^2, +-16 native pixels, eps 1e-5", 10000, 1),

@@ -15,10 +15,10 @@
 ! an object that goes out of scope is emptied. An object cannot be assigned to another.
 module wfpsf
     use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_null_ptr, c_ptr
-    use, intrinsic :: iso_fortran_env, only: real32, real64
+    use, intrinsic :: iso_fortran_env, only: int64, real32, real64
     use wfpsf_constants
     implicit none
-    private :: c_double, c_int32_t, c_null_ptr, c_ptr, real32, real64, handle
+    private :: c_double, c_int32_t, c_null_ptr, c_ptr, int64, real32, real64, handle
 
     ! What all objects have in common: a pointer to the library's own.
     type :: handle
@@ -118,6 +118,8 @@ module wfpsf
         procedure :: create_from_mask => psf_create_from_mask
         procedure :: destroy => psf_destroy
         procedure :: draw => psf_draw
+        procedure :: add_bright_star => psf_add_bright_star
+        procedure :: draw_memory => psf_draw_memory
         procedure :: add_stars => psf_add_stars
         procedure :: convolve => psf_convolve
         procedure :: create_in_band => psf_create_in_band
@@ -710,7 +712,8 @@ module wfpsf
     end interface
 
     ! PSFs.
-    private :: psf_create, psf_create_from_mask, psf_destroy, psf_draw, psf_add_stars, &
+    private :: psf_create, psf_create_from_mask, psf_destroy, psf_draw, psf_add_bright_star, &
+        psf_draw_memory, psf_add_stars, &
         psf_convolve, psf_create_in_band, psf_create_chromatic, psf_get, psf_finalize
     interface
         ! At the centre of detector sca, 1..18. Options: eps, struts, psf_radius, piston_tilt,
@@ -787,14 +790,37 @@ module wfpsf
             class(wfpsf_psf), intent(inout) :: self
         end subroutine psf_destroy
 
-        ! Overwrites the image with a star whose optical axis falls on (x, y), pixels of the image.
-        module subroutine psf_draw(self, x, y, flux, image, stat, errmsg)
+        ! Overwrites the image with a star whose optical axis falls on (x, y), pixels of the image,
+        ! whatever its size; options: memory_limit and the progress function, for stamps beyond the
+        ! PSF's radius.
+        module subroutine psf_draw(self, x, y, flux, image, options, stat, errmsg)
             class(wfpsf_psf), intent(in) :: self
             real(real64), intent(in) :: x, y, flux
             type(wfpsf_image), intent(inout) :: image
+            type(wfpsf_options), intent(in), optional :: options
             integer, intent(out), optional :: stat
             character(len=*), intent(inout), optional :: errmsg
         end subroutine psf_draw
+
+        ! The same, added to what the image holds, on all of its pixels. Option also: force.
+        module subroutine psf_add_bright_star(self, x, y, flux, image, options, stat, errmsg)
+            class(wfpsf_psf), intent(in) :: self
+            real(real64), intent(in) :: x, y, flux
+            type(wfpsf_image), intent(inout) :: image
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine psf_add_bright_star
+
+        ! Bytes that drawing into the image would take: at least, and to be done in one go.
+        module subroutine psf_draw_memory(self, x, y, image, least, most, stat, errmsg)
+            class(wfpsf_psf), intent(in) :: self
+            real(real64), intent(in) :: x, y
+            type(wfpsf_image), intent(in) :: image
+            integer(int64), intent(inout) :: least, most
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine psf_draw_memory
 
         ! Adds stars, each within the PSF's radius of it, clipped at the image's borders. The arrays
         ! are of one size; options: threads, force.

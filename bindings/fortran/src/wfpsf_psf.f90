@@ -76,8 +76,19 @@ contains
     end procedure psf_destroy
 
     module procedure psf_draw
-        call report(wfpsf_psf_draw(self%pointer, x - 1, y - 1, flux, c_null_ptr, image%pointer), stat, errmsg)
+        call report(wfpsf_psf_draw(self%pointer, x - 1, y - 1, flux, pointer_of(options), &
+            image%pointer), stat, errmsg)
     end procedure psf_draw
+
+    module procedure psf_add_bright_star
+        call report(wfpsf_psf_add_bright_star(self%pointer, x - 1, y - 1, flux, &
+            pointer_of(options), image%pointer), stat, errmsg)
+    end procedure psf_add_bright_star
+
+    module procedure psf_draw_memory
+        call report(wfpsf_psf_draw_memory(self%pointer, x - 1, y - 1, image%pointer, least, &
+            most), stat, errmsg)
+    end procedure psf_draw_memory
 
     module procedure psf_add_stars
         integer(c_int64_t) :: n

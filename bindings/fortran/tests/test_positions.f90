@@ -2,7 +2,7 @@
 ! The first pixel is (1, 1) wherever a position goes in or comes out.
 program test_positions
     use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
-    use, intrinsic :: iso_fortran_env, only: real64
+    use, intrinsic :: iso_fortran_env, only: int64, real64
     use expectations, only: expect
     use wfpsf
     implicit none
@@ -103,12 +103,13 @@ contains
 
     ! Two odd stamps, the star in the middle of each and a pixel off: the same pixels, moved.
     subroutine of_a_star()
-        real(real64), target :: middle(33, 33), moved(33, 33)
+        real(real64), target :: middle(33, 33), moved(33, 33), bright(33, 33)
         type(wfpsf_instrument) :: instrument
-        type(wfpsf_psf) :: psf
+        type(wfpsf_psf) :: psf, small
         type(wfpsf_image) :: image
         type(wfpsf_options) :: options
         real(real64) :: peak
+        integer(int64) :: least, most
         integer :: status
 
         call instrument%create("wfirst-afta-c5")
@@ -127,6 +128,19 @@ contains
         call expect(maxval(abs(moved - middle)) < 1e-14_real64, "one set of aberrations a detector")
         call psf%draw(16.0_real64, 19.0_real64, 1.0_real64, image)
         call expect(maxval(abs(moved(:32, 3:) - middle(2:, :31))) < 2 * eps * peak, "a star moved")
+
+        ! From a small field in the least memory, and taken away again.
+        call options%set(wfpsf_option_psf_radius, 4.0_real64)
+        call small%create(instrument, 7, 1292.0_real64, options)
+        call small%draw_memory(17.0_real64, 17.0_real64, image, least, most)
+        call expect(0 < least .and. least < most, "memory of a bright star")
+        call options%set(wfpsf_option_memory_limit, real(least, real64))
+        call image%wrap(bright, 1)
+        call small%draw(17.0_real64, 17.0_real64, 1.0_real64, image, options)
+        call expect(maxval(abs(bright - middle)) < 2 * eps * peak, "a bright star")
+        call small%add_bright_star(17.0_real64, 17.0_real64, -1.0_real64, image, options)
+        call expect(maxval(abs(bright)) < 1e-15_real64, "its light taken away")
+        call image%wrap(moved, 1)
 
         ! Taken away where it was drawn, as far as the PSF's radius of 16 pixels goes.
         call psf%add_stars([16.0_real64, 900.0_real64], [19.0_real64, 1.0_real64], &

@@ -2,8 +2,10 @@
 
 const PSF_PROPERTIES = constants_of("WFPSF_PSF_")
 const PSF_OPTIONS = (:eps, :struts, :psf_radius, :piston_tilt, :frame, :field_rule, :jitter_xx,
-                     :jitter_xy, :jitter_yy, :charge_diffusion, :zernikes, :opd, :progress)
+                     :jitter_xy, :jitter_yy, :charge_diffusion, :zernikes, :opd, :memory_limit,
+                     :progress)
 const STAR_OPTIONS = (:threads, :force)
+const DRAW_OPTIONS = (:memory_limit, :progress)
 
 """
     PSF(instrument, sca, wavelength_nm; options...)
@@ -109,8 +111,9 @@ function Base.getproperty(psf::PSF, name::Symbol)
 end
 
 """
-    draw!(image, psf, x, y; flux = 1)
-    draw(psf, nx, ny; x = (nx+1)/2, y = (ny+1)/2, flux = 1, oversampling = 1, pixel_type = Float64)
+    draw!(image, psf, x, y; flux = 1, options...)
+    draw(psf, nx, ny; x = (nx+1)/2, y = (ny+1)/2, flux = 1, oversampling = 1, pixel_type = Float64,
+         options...)
 
 Draws one star, overwriting the image; the second form makes the image. (x, y), in pixels of the
 image, is where the optical axis falls, not the centroid; the centre of the first pixel is (1, 1).
@@ -118,10 +121,41 @@ image, is where the optical axis falls, not the centroid; the centre of the firs
 Each pixel gets `flux / N^2` times the fraction of the light that a native pixel centred there
 receives, N the image's oversampling: the sum over an infinite image is the flux at any N. The
 record becomes the PSF's pixel scale, with the pixel response applied.
+
+The image may be of any size. Beyond the PSF's `radius` its light is drawn from the diffraction
+image anew, with nothing folded back, in a time that goes with the area and in no more memory than
+`memory_limit` bytes; `progress` is called meanwhile.
 """
-function draw!(image::Image, psf::PSF, x::Real, y::Real; flux::Real = 1)
-    check(LibWfpsf.wfpsf_psf_draw(psf, x - 1, y - 1, flux, C_NULL, image))
+function draw!(image::Image, psf::PSF, x::Real, y::Real; flux::Real = 1, keywords...)
+    with_options(DRAW_OPTIONS, keywords) do options
+        check(LibWfpsf.wfpsf_psf_draw(psf, x - 1, y - 1, flux, options, image))
+    end
     return image
+end
+
+"""
+    add_bright_star!(image, psf, x, y; flux = 1, force = false, options...)
+
+Adds a star to what the image holds, on all of its pixels: for stars whose spikes are seen far from
+them. Otherwise as `draw!`; `force` as in `add_stars!`.
+"""
+function add_bright_star!(image::Image, psf::PSF, x::Real, y::Real; flux::Real = 1, keywords...)
+    with_options((DRAW_OPTIONS..., :force), keywords) do options
+        check(LibWfpsf.wfpsf_psf_add_bright_star(psf, x - 1, y - 1, flux, options, image))
+    end
+    return image
+end
+
+"""
+    draw_memory(psf, image, x, y)
+
+The bytes that drawing a star at (x, y) into the image would take: `(least, most)`, without which it
+cannot be done and with which it is done in one go.
+"""
+function draw_memory(psf::PSF, image::Image, x::Real, y::Real)
+    least, most = Ref{Int64}(), Ref{Int64}()
+    check(LibWfpsf.wfpsf_psf_draw_memory(psf, x - 1, y - 1, image, least, most))
+    return (least = least[], most = most[])
 end
 
 """
@@ -163,7 +197,8 @@ function convolve!(image::Image, psf::PSF, galaxy::Image, x::Real, y::Real; flux
 end
 
 function draw(psf::PSF, nx::Integer, ny::Integer; x::Real = (nx + 1) / 2, y::Real = (ny + 1) / 2,
-              flux::Real = 1, oversampling::Integer = 1, pixel_type::Type{<:PixelType} = Float64)
+              flux::Real = 1, oversampling::Integer = 1, pixel_type::Type{<:PixelType} = Float64,
+              keywords...)
     image = Image(pixel_type, nx, ny; oversampling = oversampling)
-    return draw!(image, psf, x, y; flux = flux)
+    return draw!(image, psf, x, y; flux = flux, keywords...)
 end

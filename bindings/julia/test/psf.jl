@@ -38,6 +38,19 @@ science, pupil = (PSF(roman, "H158", 3, 12.5, 4000; frame = frame, eps = 1e-5) f
 field = Image(Float64, 41, 37)
 add_stars!(field, psf, [12.3, 12.3, -500], 1:3:7, [3, 1, 1e9]; threads = 2)
 add_stars!(field, psf, [12.3, 30], [1, 36], Float32[-3, 0])
+# Beyond the radius, in little memory.
+let small = PSF(Instrument(), 7, 1292; psf_radius = 3), image = Image(Float64, 33, 31)
+    memory = draw_memory(small, image, 17, 16)
+    @test 0 < memory.least < memory.most
+    draw!(image, small, 17, 16; memory_limit = memory.least)
+    @test image.pixels ≈ draw(psf, 33, 31).pixels rtol = 1e-4
+    before = copy(image.pixels)
+    add_bright_star!(image, small, 17, 16; flux = 2, memory_limit = memory.most)
+    @test image.pixels ≈ 3 * before
+    @test status_of(() -> draw!(image, small, 17, 16; memory_limit = 1e4)) ==
+        LibWfpsf.WFPSF_ERROR_MEMORY_LIMIT
+end
+
 alone = draw!(Image(Float64, 41, 37), psf, 12.3, 4)
 near = [abs(x - 12.3) <= psf.radius && abs(y - 4) <= psf.radius for x = 1:41, y = 1:37]
 @test maximum(abs, field.pixels - near .* alone.pixels) < 1e-8

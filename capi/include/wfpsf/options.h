@@ -68,7 +68,7 @@ enum { WFPSF_OPTION_REAL = 1, WFPSF_OPTION_INTEGER = 2 };
       "highest frequency in the image, cycles per pixel of the image")                             \
     X(FITS_OVERWRITE, 500, INTEGER, 0, 0, 1, "1: replace an existing file")                        \
     X(THREADS, 600, INTEGER, 1, 1, 1024, "threads that a call may use, the caller's among them")   \
-    X(MEMORY_LIMIT, 610, REAL, 4294967296.0, 1e6, 1e15,                                            \
+    X(MEMORY_LIMIT, 610, REAL, 4294967296.0, 1e3, 1e15,                                            \
       "bytes that a call may take, about, beside the caller's own images")
 
 #define WFPSF_OPTION_ENUM(name, key, kind, standard, smallest, largest, text)                      \
