@@ -7,6 +7,7 @@
 #include "instrument/instrument.hpp"
 #include "optics/otf.hpp"
 #include "optics/psf.hpp"
+#include "optics/varying_psf.hpp"
 
 #include <array>
 #include <memory>
@@ -32,6 +33,11 @@ struct wfpsf_sed {
 struct wfpsf_psf {
     wfpsf::Psf psf;
     double wavelength_nm, pixel_scale_arcsec; // as given, without a rounding
+};
+
+struct wfpsf_varying_psf {
+    wfpsf::VaryingPsf varying;
+    double wavelength_nm, pixel_scale_arcsec;
 };
 
 struct wfpsf_otf {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "funnel.hpp"
-#include "handles.hpp"
 #include "image/overlap.hpp"
 #include "optics/convolve.hpp"
+#include "psf_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -27,62 +26,6 @@ namespace {
 constexpr int largest_sed_count = 1000;
 constexpr double arcsec = std::numbers::pi / 180 / 3600;
 
-// The instrument's own aberrations and the caller's, in waves at the reference wavelength.
-Wavefront make_wavefront(const Instrument &instrument, std::span<const double> own,
-                         const wfpsf_options *options) {
-    const std::vector<double> &extra = extra_zernikes(options);
-    std::vector<double> coefficients(std::max(own.size(), extra.size()));
-    std::copy(own.begin(), own.end(), coefficients.begin());
-    if (!flag(options, WFPSF_OPTION_PISTON_TILT))
-        std::fill_n(coefficients.begin(), std::min<size_t>(3, coefficients.size()), 0.0);
-    for (size_t i = 0; i < extra.size(); ++i)
-        coefficients[i] += extra[i];
-    Wavefront wavefront(coefficients, instrument.diameter_m() / 2);
-    if (auto map = opd_map(options))
-        wavefront.add(std::move(map), instrument.reference_wavelength_nm() * 1e-9);
-    return wavefront;
-}
-
-// Jitter and charge diffusion, native pixels^2.
-Covariance make_blur(const Instrument &instrument, const wfpsf_options *options) {
-    constexpr double largest = 16; // native pixels
-    const double scale = instrument.pixel_scale_arcsec();
-    const double xx = option(options, WFPSF_OPTION_JITTER_XX) / (scale * scale);
-    const double xy = option(options, WFPSF_OPTION_JITTER_XY) / (scale * scale);
-    const double yy = option(options, WFPSF_OPTION_JITTER_YY) / (scale * scale);
-    if (!(xy * xy <= xx * yy * (1 + 1e-12)))
-        fail(WFPSF_ERROR_RANGE,
-             "JITTER_XY = %g: its square must not exceed JITTER_XX * JITTER_YY = %g",
-             option(options, WFPSF_OPTION_JITTER_XY),
-             option(options, WFPSF_OPTION_JITTER_XX) * option(options, WFPSF_OPTION_JITTER_YY));
-    const double diffusion = option(options, WFPSF_OPTION_CHARGE_DIFFUSION);
-    const Covariance blur{xx + diffusion * diffusion, xy, yy + diffusion * diffusion};
-    if (!(std::max(blur.xx, blur.yy) <= largest * largest))
-        fail(WFPSF_ERROR_RANGE,
-             "JITTER and CHARGE_DIFFUSION: %g native pixels rms along an axis, must be up to %g",
-             std::sqrt(std::max(blur.xx, blur.yy)), largest);
-    return blur;
-}
-
-PsfSettings make_settings(const Instrument &instrument, bool mirrored,
-                          const wfpsf_options *options) {
-    return {.wavelength = instrument.reference_wavelength_nm() * 1e-9,
-            .pixel_scale = instrument.pixel_scale_arcsec() * arcsec,
-            .eps = option(options, WFPSF_OPTION_EPS),
-            .radius = option(options, WFPSF_OPTION_PSF_RADIUS),
-            .mirrored = mirrored,
-            .blur = make_blur(instrument, options)};
-}
-
-// OK, or the warning that the error estimate does not meet EPS.
-wfpsf_status certify(double estimate, double eps) {
-    if (estimate <= eps)
-        return WFPSF_OK;
-    char line[128];
-    std::snprintf(line, sizeof line, "EPS = %g: the error estimate is %g", eps, estimate);
-    return record_error(WFPSF_WARNING_NOT_CERTIFIED, line);
-}
-
 // What all ways to make PSFs share, one for each light; the aperture is made only when the
 // arguments are sound.
 template <class MakeAperture>
@@ -90,7 +33,7 @@ wfpsf_status create(const Instrument &instrument, std::span<const double> aberra
                     std::span<const Light> lights, bool mirrored, const wfpsf_options *options,
                     MakeAperture make, wfpsf_psf **out) {
     const PsfSettings settings = make_settings(instrument, mirrored, options);
-    const Wavefront wavefront = make_wavefront(instrument, aberrations, options);
+    const Wavefront wavefront = make_wavefront(instrument, aberrations, AddedAberrations(options));
     std::vector<Psf> psfs =
         make_psfs({make(), wavefront, settings.wavelength}, lights, settings, manners_of(options));
     std::vector<std::unique_ptr<wfpsf_psf>> handles;
@@ -108,32 +51,14 @@ wfpsf_status create(const Instrument &instrument, std::span<const double> aberra
     return status;
 }
 
-Light one_colour(double wavelength_nm) {
-    require_finite(wavelength_nm, "wavelength_nm");
-    if (!(wavelength_nm >= 100 && wavelength_nm <= 1e5))
-        fail(WFPSF_ERROR_RANGE, "wavelength_nm = %g: must be 100..100000", wavelength_nm);
-    return monochromatic(wavelength_nm * 1e-9);
-}
-
 // PSFs anywhere on a detector through the pupil of a band.
 wfpsf_status create_in_band(const Instrument &instrument, const char *band, int32_t sca, double x,
                             double y, std::span<const Light> lights, const wfpsf_options *options,
                             wfpsf_psf **out) {
-    const FieldRule rule =
-        flag(options, WFPSF_OPTION_FIELD_RULE) ? FieldRule::corners : FieldRule::five_points;
-    const bool mirrored =
-        instrument.pupils.size() > 1 && !flag(options, WFPSF_OPTION_FRAME); // C5: one frame
     return create(
-        instrument, instrument.zernikes(sca, x, y, rule), lights, mirrored, options,
+        instrument, instrument.zernikes(sca, x, y, field_rule(options)), lights,
+        is_mirrored(instrument, options), options,
         [&] { return make_aperture_of(instrument, sca, band, options); }, out);
-}
-
-// An image that states another pixel scale than the PSF's is refused.
-void require_scale(const wfpsf_psf &psf, const Image &image, const char *argument) {
-    const double scale = image.pixel_scale_arcsec();
-    if (scale != 0 && std::abs(scale / psf.pixel_scale_arcsec - 1) > 1e-9)
-        fail(WFPSF_ERROR_ARGUMENT, "%s: has pixels of %.10g arcsec, the PSF of %.10g", argument,
-             scale, psf.pixel_scale_arcsec);
 }
 
 } // namespace
@@ -169,8 +94,7 @@ wfpsf_status wfpsf_psf_create_in_band(const wfpsf_instrument *instrument, const 
         require_finite(y, "y");
         const Instrument &i = instrument->instrument;
         const Band &filter = i.band(band);
-        const Light light = one_colour(
-            wavelength_nm == 0 ? tabulated_wavelengths(filter).effective_nm : wavelength_nm);
+        const Light light = one_colour_in(filter, wavelength_nm);
         return create_in_band(i, band, sca, x, y, {&light, 1}, options, out);
     });
 }
@@ -234,18 +158,6 @@ Star checked_star(double x, double y, double flux) {
     return {x, y, flux};
 }
 
-// Light is added before what the detector does to it.
-void require_light(const wfpsf_psf &psf, const Image &image, const wfpsf_options *options) {
-    for (const Effect later : {Effect::ipc, Effect::ipc_correction})
-        image.require_not_applied(later, flag(options, WFPSF_OPTION_FORCE));
-    require_scale(psf, image, "image");
-}
-
-void record_light(const wfpsf_psf &psf, Image &image) {
-    image.set_pixel_scale_arcsec(psf.pixel_scale_arcsec);
-    image.record_applied(Effect::pixel_response);
-}
-
 wfpsf_status draw(const wfpsf_psf &psf, const Star &star, Psf::Drawing drawing,
                   const wfpsf_options *options, Image &image) {
     const double error = std::visit(
@@ -266,7 +178,7 @@ wfpsf_status wfpsf_psf_draw(const wfpsf_psf *psf, double x, double y, double flu
         const wfpsf_status status =
             draw(*psf, checked_star(x, y, flux), Psf::Drawing::overwrites, options, image->image);
         image->image.set_applied(0);
-        record_light(*psf, image->image);
+        record_light(psf->pixel_scale_arcsec, image->image);
         return status;
     });
 }
@@ -276,10 +188,10 @@ wfpsf_status wfpsf_psf_add_bright_star(const wfpsf_psf *psf, double x, double y,
     return guarded([&] {
         require_pointer(psf, "psf");
         require_pointer(image, "image");
-        require_light(*psf, image->image, options);
+        require_light(psf->pixel_scale_arcsec, image->image, options);
         const wfpsf_status status =
             draw(*psf, checked_star(x, y, flux), Psf::Drawing::adds, options, image->image);
-        record_light(*psf, image->image);
+        record_light(psf->pixel_scale_arcsec, image->image);
         return status;
     });
 }
@@ -306,29 +218,14 @@ wfpsf_status wfpsf_psf_add_stars(const wfpsf_psf *psf, int64_t count, const doub
     return guarded([&] {
         require_pointer(psf, "psf");
         require_pointer(image, "image");
-        if (count < 0)
-            fail(WFPSF_ERROR_SIZE, "count = %lld: must be >= 0", static_cast<long long>(count));
-        if (count > 0) {
-            require_pointer(x, "x");
-            require_pointer(y, "y");
-            require_pointer(flux, "flux");
-        }
+        const std::vector<Star> stars = checked_stars(count, x, y, flux);
         Image &target = image->image;
-        require_light(*psf, target, options);
-        std::vector<Star> stars;
-        for (int64_t i = 0; i < count; ++i) {
-            for (const auto &[name, value] :
-                 {std::pair("x", x[i]), std::pair("y", y[i]), std::pair("flux", flux[i])})
-                if (!std::isfinite(value))
-                    fail(WFPSF_ERROR_NOT_FINITE, "%s[%lld] = %g: must be finite", name,
-                         static_cast<long long>(i), value);
-            stars.push_back({x[i], y[i], flux[i]});
-        }
+        require_light(psf->pixel_scale_arcsec, target, options);
         const auto threads = static_cast<int>(option(options, WFPSF_OPTION_THREADS));
         std::visit(
             [&](auto pixels) { psf->psf.add(stars, target.oversampling(), pixels, threads); },
             target.pixels());
-        record_light(*psf, target);
+        record_light(psf->pixel_scale_arcsec, target);
     });
 }
 
@@ -343,7 +240,7 @@ wfpsf_status wfpsf_psf_convolve(const wfpsf_psf *psf, const wfpsf_image *galaxy,
         require_finite(flux, "flux");
         for (const Effect effect : {Effect::pixel_response, Effect::ipc, Effect::ipc_correction})
             galaxy->image.require_not_applied(effect, flag(options, WFPSF_OPTION_FORCE));
-        require_scale(*psf, galaxy->image, "galaxy");
+        require_scale(psf->pixel_scale_arcsec, galaxy->image, "galaxy");
         Image &target = image->image;
         std::visit(
             [&]<class S, class T>(View<const S> samples, View<T> pixels) {

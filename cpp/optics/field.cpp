@@ -3,6 +3,7 @@
 
 #include "optics/colours.hpp"
 #include "optics/image_maker.hpp"
+#include "optics/resample.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -177,13 +178,53 @@ std::vector<Field> make_fields(const Optics &optics, std::span<const Light> ligh
         const WavelengthRule rule = choose_wavelengths(all, maker.longest_path(), for_rule).rule;
         Attempt made = attempt(maker, rule, spectra, manners.progress);
         const bool good = made.error <= for_the_rest && made.colour_error <= for_colour;
-        if (good || count == 4 || tolerance < 1e-15)
+        if (good || count == 4 || tolerance < 1e-15) {
+            for (Field &field : made.fields) {
+                field.shortest_wavelength = blue;
+                field.tolerance = tolerance;
+            }
             return std::move(made.fields);
+        }
         if (made.error > for_the_rest)
             tolerance *= 0.7 * for_the_rest / made.error;
         if (made.colour_error > for_colour)
             for_rule /= 3;
     }
 }
+
+Field make_field_like(const Field &like, const Optics &optics, const PsfSettings &settings,
+                      double radius) {
+    const ImageMaker maker(optics, settings, like.shortest_wavelength, radius, like.tolerance);
+    Sum sum;
+    int64_t nodes = 0;
+    for (const Colour &colour : like.colours) {
+        const Diffraction image = maker.diffract(colour.wavelength);
+        nodes += image.nodes;
+        sum.add(image, maker.scale(colour.wavelength), maker.unaberrated_peak(colour.wavelength),
+                colour.weight);
+    }
+    Field field = field_of(maker, sum);
+    field.nodes = nodes;
+    field.colours = like.colours;
+    field.shortest_wavelength = like.shortest_wavelength;
+    field.tolerance = like.tolerance;
+    return field;
+}
+
+template <class T>
+void Field::draw(const Star &star, int64_t oversampling, int64_t first_x, int64_t first_y,
+                 View<T> out) const {
+    const auto n = static_cast<double>(oversampling);
+    const double centre = static_cast<double>(value.nx() - 1) / 2;
+    const auto positions = [&](double place, int64_t first, int64_t count) {
+        return Positions{centre - place * static_cast<double>(per_pixel) / n, first, count,
+                         per_pixel, oversampling};
+    };
+    resample(value.view(), interpolator, positions(star.x, first_x, out.nx),
+             positions(star.y, first_y, out.ny), star.flux / (n * n), out);
+}
+
+template void Field::draw(const Star &, int64_t, int64_t, int64_t, View<float>) const;
+template void Field::draw(const Star &, int64_t, int64_t, int64_t, View<double>) const;
 
 } // namespace wfpsf

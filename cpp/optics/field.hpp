@@ -37,6 +37,11 @@ struct PsfSettings {
     Covariance blur = {}; // of a Gaussian, native pixels^2: jitter and charge diffusion
 };
 
+// Position in samples of an image, the first one's centre at (0, 0).
+struct Star {
+    double x, y, flux;
+};
+
 struct Colour {
     double wavelength, weight; // m; of the light detected
 };
@@ -52,6 +57,14 @@ struct Field {
     double peak = 0;             // largest fraction of the light in one pixel
     double error = 0;            // estimate of the numerical error, of the peak pixel
     double model_error = 0;      // of the pupil's description, likewise
+    // What grid and filters were chosen by.
+    double shortest_wavelength = 0, tolerance = 0;
+
+    // out(i, j) = what a star gives pixel (first_x + i, first_y + j) of an image whose first pixel
+    // is at (0, 0): see Psf::draw().
+    template <class T>
+    void draw(const Star &star, int64_t oversampling, int64_t first_x, int64_t first_y,
+              View<T> out) const;
 };
 
 // One field a light, all from the same monochromatic images, reaching `radius` native pixels.
@@ -59,5 +72,10 @@ struct Field {
 std::vector<Field> make_fields(const Optics &optics, std::span<const Light> lights,
                                const PsfSettings &settings, double radius,
                                const Manners &manners = {});
+
+// The field of other optics behind the same aperture, on the grid, with the filters and of the
+// wavelengths of one that make_fields() gave for the same settings and radius.
+Field make_field_like(const Field &like, const Optics &optics, const PsfSettings &settings,
+                      double radius);
 
 } // namespace wfpsf

@@ -11,11 +11,6 @@
 
 namespace wfpsf {
 
-// Position in samples of an image, the first one's centre at (0, 0).
-struct Star {
-    double x, y, flux;
-};
-
 // Bytes that the stamp takes at least, and what lets it be drawn in one go.
 struct StampMemory {
     int64_t least, most;

@@ -2,12 +2,10 @@
 #include "optics/psf.hpp"
 
 #include "error/error.hpp"
-#include "optics/resample.hpp"
+#include "optics/add_stars.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
-#include <thread>
 #include <vector>
 
 namespace wfpsf {
@@ -66,10 +64,10 @@ double Psf::draw(const Star &star, int64_t oversampling, View<T> image, Drawing 
                                {reach, oversampling, image.nx, image.ny}, image, manners);
     }
     if (drawing == Drawing::overwrites) {
-        draw_from(field_, star, oversampling, 0, 0, image);
+        field_.draw(star, oversampling, 0, 0, image);
     } else {
         Plane<double> stamp(image.nx, image.ny);
-        draw_from(field_, star, oversampling, 0, 0, stamp.view());
+        field_.draw(star, oversampling, 0, 0, stamp.view());
         fill([&stamp](T before, int64_t x, int64_t y) { return before + stamp(x, y); });
     }
     return field_.error;
@@ -82,70 +80,13 @@ StampMemory Psf::draw_memory(const Star &star, int64_t oversampling, int64_t nx,
     return stamp_memory(optics_, light_, settings_, field_.peak, {reach, oversampling, nx, ny});
 }
 
-// The star counts from a pixel of which out's first one is (first_x, first_y).
-template <class T>
-void Psf::draw_from(const Field &field, const Star &star, int64_t oversampling, int64_t first_x,
-                    int64_t first_y, View<T> out) const {
-    const auto n = static_cast<double>(oversampling);
-    const double centre = static_cast<double>(field.value.nx() - 1) / 2;
-    const auto positions = [&](double place, int64_t first, int64_t count) {
-        return Positions{centre - place * static_cast<double>(field.per_pixel) / n, first, count,
-                         field.per_pixel, oversampling};
-    };
-    resample(field.value.view(), field.interpolator, positions(star.x, first_x, out.nx),
-             positions(star.y, first_y, out.ny), star.flux / (n * n), out);
-}
-
 template <class T>
 void Psf::add(std::span<const Star> stars, int64_t oversampling, View<T> image, int threads) const {
-    const auto bands = std::clamp<int64_t>(threads, 1, std::max<int64_t>(image.ny, 1));
-    std::vector<std::exception_ptr> failures(static_cast<size_t>(bands));
-    const auto work = [&](int64_t band) noexcept {
-        try {
-            add_to_rows(stars, oversampling, image, image.ny * band / bands,
-                        image.ny * (band + 1) / bands - 1);
-        } catch (...) {
-            failures[static_cast<size_t>(band)] = std::current_exception();
-        }
-    };
-    std::vector<std::jthread> others;
-    for (int64_t band = 1; band < bands; ++band)
-        others.emplace_back(work, band);
-    work(0);
-    for (std::jthread &other : others)
-        other.join();
-    for (const std::exception_ptr &failure : failures)
-        if (failure)
-            std::rethrow_exception(failure);
-}
-
-template <class T>
-void Psf::add_to_rows(std::span<const Star> stars, int64_t oversampling, View<T> image,
-                      int64_t first_row, int64_t last_row) const {
-    const double radius = settings_.radius * static_cast<double>(oversampling);
-    Plane<double> stamp;
-    for (const Star &star : stars) {
-        // Far from the image nothing is done, and nothing overflows.
-        if (star.x < -radius || star.x > static_cast<double>(image.nx) + radius ||
-            star.y < -radius || star.y > static_cast<double>(image.ny) + radius)
-            continue;
-        const auto window_x = static_cast<int64_t>(std::ceil(star.x - radius));
-        const auto window_y = static_cast<int64_t>(std::ceil(star.y - radius));
-        const int64_t x0 = std::max<int64_t>(window_x, 0), y0 = std::max(window_y, first_row);
-        const int64_t x1 =
-            std::min(static_cast<int64_t>(std::floor(star.x + radius)), image.nx - 1);
-        const int64_t y1 = std::min(static_cast<int64_t>(std::floor(star.y + radius)), last_row);
-        if (x0 > x1 || y0 > y1)
-            continue;
-        if (stamp.nx() != x1 - x0 + 1 || stamp.ny() != y1 - y0 + 1)
-            stamp = Plane<double>(x1 - x0 + 1, y1 - y0 + 1);
-        const Star in_window{star.x - static_cast<double>(window_x),
-                             star.y - static_cast<double>(window_y), star.flux};
-        draw_from(field_, in_window, oversampling, x0 - window_x, y0 - window_y, stamp.view());
-        for (int64_t y = y0; y <= y1; ++y)
-            for (int64_t x = x0; x <= x1; ++x)
-                image(x, y) += static_cast<T>(stamp(x - x0, y - y0));
-    }
+    on_bands_of_rows(image.ny, threads, [&](int64_t first_row, int64_t last_row) {
+        add_stars_to_rows(stars, settings_.radius * static_cast<double>(oversampling), oversampling,
+                          image, first_row, last_row,
+                          [this](size_t) -> const Field & { return field_; });
+    });
 }
 
 std::vector<Psf> make_psfs(const Optics &optics, std::span<const Light> lights,

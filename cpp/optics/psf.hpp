@@ -57,13 +57,6 @@ class Psf {
     double peak() const { return field_.peak; } // largest fraction of the light in one pixel
 
   private:
-    template <class T>
-    void draw_from(const Field &field, const Star &star, int64_t oversampling, int64_t first_x,
-                   int64_t first_y, View<T> out) const;
-    template <class T>
-    void add_to_rows(std::span<const Star> stars, int64_t oversampling, View<T> image,
-                     int64_t first_row, int64_t last_row) const;
-
     Optics optics_;
     Light light_;
     PsfSettings settings_;

@@ -105,6 +105,15 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_psf_lit_area_m2 = 100
     integer(c_int32_t), parameter :: wfpsf_psf_wavelengths = 110
 
+    ! varying_psf.h
+    integer(c_int32_t), parameter :: wfpsf_varying_psf_error_estimate = 10
+    integer(c_int32_t), parameter :: wfpsf_varying_psf_interpolation_error = 20
+    integer(c_int32_t), parameter :: wfpsf_varying_psf_degree = 30
+    integer(c_int32_t), parameter :: wfpsf_varying_psf_rank = 40
+    integer(c_int32_t), parameter :: wfpsf_varying_psf_exact_psfs = 50
+    integer(c_int32_t), parameter :: wfpsf_varying_psf_memory_bytes = 60
+    integer(c_int32_t), parameter :: wfpsf_varying_psf_margin = 70
+
     ! otf.h
     integer(c_int32_t), parameter :: wfpsf_otf_error_estimate = 10
     integer(c_int32_t), parameter :: wfpsf_otf_value_error = 20
@@ -818,6 +827,64 @@ module wfpsf_c
             real(c_double), intent(inout), optional :: value
             integer(c_int32_t) :: outcome
         end function wfpsf_psf_get
+
+        ! varying_psf.h
+        function wfpsf_varying_psf_create(instrument, band, sca, wavelength_nm, sed, options, out) &
+            bind(c, name="wfpsf_varying_psf_create") result(outcome)
+            import :: c_char, c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            character(kind=c_char), intent(in), optional :: band(*)
+            integer(c_int32_t), value :: sca
+            real(c_double), value :: wavelength_nm
+            type(c_ptr), value :: sed
+            type(c_ptr), value :: options
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_varying_psf_create
+
+        subroutine wfpsf_varying_psf_destroy(varying) bind(c, name="wfpsf_varying_psf_destroy")
+            import :: c_ptr
+            implicit none
+            type(c_ptr), value :: varying
+        end subroutine wfpsf_varying_psf_destroy
+
+        function wfpsf_varying_psf_at(varying, x, y, out) &
+            bind(c, name="wfpsf_varying_psf_at") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: varying
+            real(c_double), value :: x
+            real(c_double), value :: y
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_varying_psf_at
+
+        function wfpsf_varying_psf_add_stars(varying, x0, y0, count, x, y, flux, options, image) &
+            bind(c, name="wfpsf_varying_psf_add_stars") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: varying
+            real(c_double), value :: x0
+            real(c_double), value :: y0
+            integer(c_int64_t), value :: count
+            real(c_double), intent(in), optional :: x(*)
+            real(c_double), intent(in), optional :: y(*)
+            real(c_double), intent(in), optional :: flux(*)
+            type(c_ptr), value :: options
+            type(c_ptr), value :: image
+            integer(c_int32_t) :: outcome
+        end function wfpsf_varying_psf_add_stars
+
+        function wfpsf_varying_psf_get(varying, key, value) &
+            bind(c, name="wfpsf_varying_psf_get") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: varying
+            integer(c_int32_t), value :: key
+            real(c_double), intent(inout), optional :: value
+            integer(c_int32_t) :: outcome
+        end function wfpsf_varying_psf_get
 
         ! otf.h
         function wfpsf_otf_create(psf, options, out) &

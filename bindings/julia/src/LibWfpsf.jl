@@ -507,6 +507,48 @@ function wfpsf_psf_get(psf, key, value)
         psf, key, value)
 end
 
+# varying_psf.h
+const WFPSF_VARYING_PSF_ERROR_ESTIMATE = Int32(10)
+const WFPSF_VARYING_PSF_INTERPOLATION_ERROR = Int32(20)
+const WFPSF_VARYING_PSF_DEGREE = Int32(30)
+const WFPSF_VARYING_PSF_RANK = Int32(40)
+const WFPSF_VARYING_PSF_EXACT_PSFS = Int32(50)
+const WFPSF_VARYING_PSF_MEMORY_BYTES = Int32(60)
+const WFPSF_VARYING_PSF_MARGIN = Int32(70)
+
+const wfpsf_varying_psf_create_pointer = Ref(C_NULL)
+function wfpsf_varying_psf_create(instrument, band, sca, wavelength_nm, sed, options, out)
+    return ccall(wfpsf_varying_psf_create_pointer[], Int32, (Ptr{Cvoid}, Cstring, Int32, Float64,
+        Ptr{Cvoid}, Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        instrument, band, sca, wavelength_nm, sed, options, out)
+end
+
+const wfpsf_varying_psf_destroy_pointer = Ref(C_NULL)
+function wfpsf_varying_psf_destroy(varying)
+    return ccall(wfpsf_varying_psf_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
+        varying)
+end
+
+const wfpsf_varying_psf_at_pointer = Ref(C_NULL)
+function wfpsf_varying_psf_at(varying, x, y, out)
+    return ccall(wfpsf_varying_psf_at_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64,
+        Ptr{Ptr{Cvoid}}),
+        varying, x, y, out)
+end
+
+const wfpsf_varying_psf_add_stars_pointer = Ref(C_NULL)
+function wfpsf_varying_psf_add_stars(varying, x0, y0, count, x, y, flux, options, image)
+    return ccall(wfpsf_varying_psf_add_stars_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64, Int64,
+        Ptr{Float64}, Ptr{Float64}, Ptr{Float64}, Ptr{Cvoid}, Ptr{Cvoid}),
+        varying, x0, y0, count, x, y, flux, options, image)
+end
+
+const wfpsf_varying_psf_get_pointer = Ref(C_NULL)
+function wfpsf_varying_psf_get(varying, key, value)
+    return ccall(wfpsf_varying_psf_get_pointer[], Int32, (Ptr{Cvoid}, Int32, Ptr{Float64}),
+        varying, key, value)
+end
+
 # otf.h
 const WFPSF_OTF_ERROR_ESTIMATE = Int32(10)
 const WFPSF_OTF_VALUE_ERROR = Int32(20)
@@ -755,6 +797,11 @@ const pointers = [
     :wfpsf_psf_add_stars => wfpsf_psf_add_stars_pointer,
     :wfpsf_psf_convolve => wfpsf_psf_convolve_pointer,
     :wfpsf_psf_get => wfpsf_psf_get_pointer,
+    :wfpsf_varying_psf_create => wfpsf_varying_psf_create_pointer,
+    :wfpsf_varying_psf_destroy => wfpsf_varying_psf_destroy_pointer,
+    :wfpsf_varying_psf_at => wfpsf_varying_psf_at_pointer,
+    :wfpsf_varying_psf_add_stars => wfpsf_varying_psf_add_stars_pointer,
+    :wfpsf_varying_psf_get => wfpsf_varying_psf_get_pointer,
     :wfpsf_otf_create => wfpsf_otf_create_pointer,
     :wfpsf_otf_destroy => wfpsf_otf_destroy_pointer,
     :wfpsf_otf_values => wfpsf_otf_values_pointer,

@@ -17,6 +17,7 @@
 #include <wfpsf/sed.h>
 #include <wfpsf/size.h>
 #include <wfpsf/status.h>
+#include <wfpsf/varying_psf.h>
 #include <wfpsf/version.h>
 
 #endif

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The PSF all over a detector: a polynomial of the place whose coefficients are a few fields of
+// light, made from exact PSFs at some places and held against exact ones at others.
+#pragma once
+
+#include "error/progress.hpp"
+#include "optics/psf.hpp"
+
+#include <functional>
+#include <span>
+#include <vector>
+
+namespace wfpsf {
+
+// The optics at a place of the detector, pixels; the same aperture everywhere.
+using OpticsAt = std::function<Optics(double x, double y)>;
+
+// Places within, borders included.
+struct Region {
+    double x0, y0, x1, y1;
+};
+
+// Immutable once made.
+class VaryingPsf {
+  public:
+    // `varies`: whether the optics differ from place to place at all.
+    VaryingPsf(OpticsAt optics, bool varies, Light light, const PsfSettings &settings,
+               const Region &region, const Manners &manners = {});
+
+    // Outside the region: WFPSF_ERROR_RANGE.
+    Psf at(double x, double y) const;
+
+    // Adds stars as Psf::add() does, each with the PSF of its own place; place (x0, y0) is the
+    // centre of the image's first native pixel.
+    template <class T>
+    void add(std::span<const Star> stars, double x0, double y0, int64_t oversampling, View<T> image,
+             int threads) const;
+
+    const PsfSettings &settings() const { return settings_; }
+    // Estimates in units of the peak pixel, at any place: of all errors, of the interpolation
+    // alone.
+    double error_estimate() const { return error_; }
+    double interpolation_error() const { return interpolation_error_; }
+    int degree() const { return degree_; }             // along each axis
+    size_t rank() const { return mode_.size(); }       // fields held
+    int64_t exact_psfs() const { return exact_psfs_; } // that were made for it
+    int64_t memory() const;                            // bytes held
+
+  private:
+    struct Place {
+        double x, y;
+    };
+    Place place(double u, double v) const; // of u, v in [-1, 1]
+    bool is_inside(double x, double y) const;
+    Field exact(double u, double v);
+    // The light at the nodes of the present degree, by rows; `coarse`: that of half the degree.
+    std::vector<Plane<double>> refined(std::vector<Plane<double>> coarse, const Progress &progress);
+    void compress(const std::vector<Plane<double>> &nodes);
+    double measured_error();
+    std::vector<double> weights(double x, double y) const; // of the modes
+
+    OpticsAt optics_;
+    Light light_;
+    PsfSettings settings_;
+    Region region_;
+    int degree_ = 0;
+    int64_t exact_psfs_ = 0;
+    double error_ = 0, interpolation_error_ = 0;
+    Field plain_;                            // what the fields of all places have in common
+    std::vector<Plane<double>> mode_;        // of light
+    std::vector<std::vector<double>> share_; // of each mode in the light at each node
+};
+
+} // namespace wfpsf
