@@ -41,8 +41,9 @@ double sinc(double x) {
 
 } // namespace
 
-Otf::Otf(std::span<const Component> components, double pixel_scale, bool mirrored, double eps)
-    : mirrored_(mirrored), pixel_scale_(pixel_scale) {
+Otf::Otf(std::span<const Component> components, double pixel_scale, bool mirrored, double eps,
+         const Covariance &blur)
+    : mirrored_(mirrored), pixel_scale_(pixel_scale), blur_(blur) {
     // All lattices together take as much memory as the largest one alone.
     const auto most =
         2 * static_cast<int64_t>(static_cast<double>(most_pixels) /
@@ -156,7 +157,12 @@ Complex Otf::diffraction(double kx, double ky) const {
 }
 
 Complex Otf::effective(double kx, double ky) const {
-    return diffraction(kx, ky) * sinc(kx * pixel_scale_) * sinc(ky * pixel_scale_);
+    const Complex value = diffraction(kx, ky);
+    if (value == 0.0) // also where the squares below would overflow
+        return value;
+    const double x = kx * pixel_scale_, y = ky * pixel_scale_;
+    return value * sinc(x) * sinc(y) *
+           std::exp(-2 * pi * pi * (blur_.xx * x * x + 2 * blur_.xy * x * y + blur_.yy * y * y));
 }
 
 // From the difference to pixels of twice the size, of which an error that falls as the square of

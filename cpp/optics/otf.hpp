@@ -4,6 +4,7 @@
 #pragma once
 
 #include "image/view.hpp"
+#include "optics/blur.hpp"
 #include "optics/component.hpp"
 
 #include <complex>
@@ -28,13 +29,15 @@ class Otf {
     // `eps` bounds the error of a PSF made of the OTF, in units of its peak: the integral of the
     // OTF's error over that of the OTF. Single values have a larger error where the OTF has a kink:
     // near k = 0, and for shifts along straight edges.
-    // `pixel_scale` is the native pixel's side, radians; mirrored as in PsfSettings.
-    Otf(std::span<const Component> components, double pixel_scale, bool mirrored, double eps);
+    // `pixel_scale` is the native pixel's side, radians; mirrored and blur as in PsfSettings.
+    Otf(std::span<const Component> components, double pixel_scale, bool mirrored, double eps,
+        const Covariance &blur = {});
 
     // By diffraction alone; k in cycles per radian. Zero beyond the cut-off.
     std::complex<double> diffraction(double kx, double ky) const;
 
-    // The same times what else acts on the image before it is sampled: the native pixel.
+    // The same times what else acts on the image before it is sampled: the native pixel, jitter and
+    // diffusion.
     std::complex<double> effective(double kx, double ky) const;
 
     double cutoff() const { return cutoff_; }           // of |kx| and |ky|, cycles per radian
@@ -61,6 +64,7 @@ class Otf {
     std::vector<Lattice> lattices_;
     bool mirrored_ = false, exact_ = true;
     double pixel_scale_ = 0;
+    Covariance blur_; // native pixels^2
     double cutoff_ = 0, error_ = 0, value_error_ = 0;
     int64_t pixels_ = 0;
 };
