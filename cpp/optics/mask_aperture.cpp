@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A pupil given as an image: the matrix Fourier transform of its square pixels, each with the phase
-// of its centre.
+// A pupil given as an image: the Fourier transform of its square pixels, each with the phase of its
+// centre, or of points in their place.
 #include "error/error.hpp"
+#include "numerics/chirp.hpp"
+#include "numerics/dispatch.hpp"
+#include "numerics/phasor.hpp"
 #include "optics/aperture.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <vector>
-
-#include <Eigen/Dense>
 
 namespace wfpsf {
 
@@ -18,27 +20,22 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double rounding = 1e-13; // of |A|^2 in units of area^2: sums of 10^4 to 10^7 terms
 using Complex = std::complex<double>;
-using Matrix = Eigen::MatrixXcd;
 
-// exp(i k u angle_j) on the grid (rows) at every coordinate u (columns), by repeated
-// multiplication, started afresh every 32 steps.
-Matrix waves(const FocalGrid &grid, const double *u, int64_t count, double k) {
-    Matrix out(grid.size, count);
+// weight exp(2 pi i turns), `stride` numbers apart.
+WFPSF_VECTORISED void waves(const double *weight, const double *turns, int64_t count, Complex *out,
+                            int64_t stride) {
     for (int64_t n = 0; n < count; ++n) {
-        const Complex turn = std::polar(1.0, k * u[n] * grid.step);
-        Complex wave;
-        for (int64_t j = 0; j < grid.size; ++j) {
-            wave = j % 32 == 0 ? std::polar(1.0, k * u[n] * grid.angle(j)) : wave * turn;
-            out(j, n) = wave;
-        }
+        double cosine, sine;
+        phasor(turns[n], cosine, sine);
+        out[n * stride] = {weight[n] * cosine, weight[n] * sine};
     }
-    return out;
 }
 
 class MaskAperture final : public Aperture {
   public:
-    MaskAperture(View<const double> mask, double scale, double axis_x, double axis_y)
-        : scale_(scale) {
+    MaskAperture(View<const double> mask, double scale, double axis_x, double axis_y,
+                 MaskPixels pixels)
+        : pixels_(pixels), scale_(scale) {
         int64_t x0 = mask.nx, x1 = -1, y0 = mask.ny, y1 = -1;
         for (int64_t y = 0; y < mask.ny; ++y)
             for (int64_t x = 0; x < mask.nx; ++x) {
@@ -72,38 +69,34 @@ class MaskAperture final : public Aperture {
 
     Diffraction diffract(const Wavefront &wavefront, double wavelength, const FocalGrid &grid,
                          double) const override {
-        constexpr int64_t rows = 128;
-        const double k = 2 * pi / wavelength;
-        const Matrix along_x = waves(grid, u_.data(), lit_.nx(), k);
-        Matrix sum = Matrix::Zero(grid.size, grid.size);
-        for (int64_t first = 0; first < lit_.ny(); first += rows) {
-            const int64_t count = std::min(rows, lit_.ny() - first);
-            Matrix field(lit_.nx(), count);
-            for (int64_t y = 0; y < count; ++y)
-                for (int64_t x = 0; x < lit_.nx(); ++x) {
-                    const double lit = lit_(x, first + y);
-                    field(x, y) =
-                        lit == 0
-                            ? Complex(0)
-                            : std::polar(lit, 2 * pi *
-                                                  wavefront(u_[static_cast<size_t>(x)],
-                                                            v_[static_cast<size_t>(first + y)]));
-                }
-            const Matrix along_y = waves(grid, v_.data() + first, count, k);
-            const Matrix transformed = along_x * field;
-            sum.noalias() += transformed * along_y.transpose();
-        }
+        const double turns = scale_ * grid.step / wavelength, k = 2 * pi / wavelength;
+        const Plane<Complex> rows = along_x(wavefront, grid.size, turns);
+        std::vector<double> squared; // the transform of a pixel's side
+        for (int64_t i = 0; i < grid.size; ++i)
+            squared.push_back(std::pow(side(k * grid.angle(i)), 2));
+        const ChirpTransform along_y(lit_.ny(), grid.size, turns);
+        std::vector<Complex> buffer = along_y.buffer();
         Plane<double> intensity(grid.size, grid.size);
-        for (int64_t y = 0; y < grid.size; ++y)
-            for (int64_t x = 0; x < grid.size; ++x)
-                intensity(x, y) =
-                    std::norm(sum(x, y) * square(k * grid.angle(x)) * square(k * grid.angle(y)));
-        // One phase a pixel: the wavefront's slope is lost inside it, to second order.
-        const double turn = 2 * pi * wavefront.slope_bound() * scale_;
+        for (int64_t first = 0; first < grid.size; first += batch) {
+            const int64_t count = std::min(batch, grid.size - first);
+            for (int64_t y = 0; y < lit_.ny(); ++y)
+                std::copy_n(rows.view().row(y) + first, count, at(buffer, y));
+            along_y.run(buffer);
+            for (int64_t y = 0; y < grid.size; ++y)
+                for (int64_t s = 0; s < count; ++s)
+                    intensity(first + s, y) = squared[static_cast<size_t>(first + s)] *
+                                              squared[static_cast<size_t>(y)] *
+                                              std::norm(at(buffer, along_y.place(y))[s]);
+        }
+        // One phase a square: the wavefront's slope is lost inside it, to second order.
+        const double turn =
+            pixels_ == MaskPixels::points ? 0 : 2 * pi * wavefront.slope_bound() * scale_;
         return {std::move(intensity), lit_.nx() * lit_.ny(), rounding, turn * turn / 12};
     }
 
     PupilRaster raster(int64_t, int64_t) const override {
+        if (pixels_ == MaskPixels::points)
+            fail(WFPSF_ERROR_ARGUMENT, "mask: its pixels are points, which cover no area");
         return {.lit = lit_,
                 .scale = scale_,
                 .axis_x = -u_.front() / scale_,
@@ -111,12 +104,41 @@ class MaskAperture final : public Aperture {
     }
 
   private:
-    // The transform of one pixel's side.
-    double square(double k) const {
-        const double half = k * scale_ / 2;
-        return half == 0 ? scale_ : scale_ * std::sin(half) / half;
+    static constexpr int64_t batch = ChirpTransform::batch;
+    static Complex *at(std::vector<Complex> &buffer, int64_t element) {
+        return &buffer[static_cast<size_t>(element * batch)];
     }
 
+    // Every row of the mask, aberrated and transformed, but for phases that are the same for all.
+    Plane<Complex> along_x(const Wavefront &wavefront, int64_t size, double turns) const {
+        const ChirpTransform transform(lit_.nx(), size, turns);
+        std::vector<Complex> buffer = transform.buffer();
+        std::vector<double> y(u_.size()), phases(u_.size());
+        Plane<Complex> rows(size, lit_.ny());
+        for (int64_t first = 0; first < lit_.ny(); first += batch) {
+            const int64_t count = std::min(batch, lit_.ny() - first);
+            for (int64_t s = 0; s < count; ++s) {
+                std::ranges::fill(y, v_[static_cast<size_t>(first + s)]);
+                wavefront.evaluate(u_, y, phases.data());
+                waves(lit_.view().row(first + s), phases.data(), lit_.nx(), at(buffer, 0) + s,
+                      batch);
+            }
+            transform.run(buffer);
+            for (int64_t s = 0; s < count; ++s)
+                for (int64_t x = 0; x < size; ++x)
+                    rows(x, first + s) = at(buffer, transform.place(x))[s];
+        }
+        return rows;
+    }
+
+    // The transform of one pixel along an axis.
+    double side(double k) const {
+        const double half = k * scale_ / 2;
+        return half == 0 || pixels_ == MaskPixels::points ? scale_
+                                                          : scale_ * std::sin(half) / half;
+    }
+
+    MaskPixels pixels_;
     Plane<double> lit_;
     std::vector<double> u_, v_; // pixel centres, m
     double scale_;
@@ -125,8 +147,8 @@ class MaskAperture final : public Aperture {
 } // namespace
 
 std::unique_ptr<const Aperture> make_aperture(View<const double> mask, double scale, double axis_x,
-                                              double axis_y) {
-    return std::make_unique<MaskAperture>(mask, scale, axis_x, axis_y);
+                                              double axis_y, MaskPixels pixels) {
+    return std::make_unique<MaskAperture>(mask, scale, axis_x, axis_y, pixels);
 }
 
 } // namespace wfpsf
