@@ -139,7 +139,9 @@ wfpsf_status wfpsf_psf_create_from_mask(const wfpsf_instrument *instrument, cons
         const Light light = one_colour(wavelength_nm);
         const auto aperture = [&] {
             const Plane<double> copy = copy_of(*mask);
-            return make_aperture(copy.view(), mask_scale_m, axis_x, axis_y);
+            return make_aperture(copy.view(), mask_scale_m, axis_x, axis_y,
+                                 flag(options, WFPSF_OPTION_MASK_POINTS) ? MaskPixels::points
+                                                                         : MaskPixels::squares);
         };
         return create(i, i.zernikes(sca), {&light, 1}, false, options, aperture, out);
     });

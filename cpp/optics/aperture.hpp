@@ -2,8 +2,7 @@
 // From pupil to focal plane: the diffracted amplitude
 //     A(theta) = integral over the lit pupil of exp(2 pi i W(u)) exp(2 pi i u . theta / lambda) d2u
 // and its intensity |A|^2 on a square grid of angles. Two ways that share no code: areal quadrature
-// and a nonuniform FFT for a pupil given as geometry, the matrix Fourier transform of a mask's
-// square pixels.
+// and a nonuniform FFT for a pupil given as geometry, a chirp transform of a mask's square pixels.
 #pragma once
 
 #include "image/view.hpp"
@@ -88,8 +87,11 @@ std::unique_ptr<const Aperture> make_aperture(const SpiderPupil &pupil);
 std::unique_ptr<const Aperture> make_aperture(const AnnularPupil &pupil);
 
 // A mask of transmissions in [0, 1]; pixels are squares of `scale` metres, and pixel position
-// (axis_x, axis_y) is the optical axis. Keeps a copy of the mask's lit part.
+// (axis_x, axis_y) is the optical axis. Keeps a copy of the mask's lit part. Points at the pixels'
+// centres count as much light in all, but have no raster(): WFPSF_ERROR_ARGUMENT.
+enum class MaskPixels { squares, points };
 std::unique_ptr<const Aperture> make_aperture(View<const double> mask, double scale, double axis_x,
-                                              double axis_y);
+                                              double axis_y,
+                                              MaskPixels pixels = MaskPixels::squares);
 
 } // namespace wfpsf

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A pupil given as an image: the matrix Fourier transform of its square pixels, each with the phase
-// of its centre.
+// A pupil given as an image: the Fourier transform of its square pixels, each with the phase of its
+// centre, or of points in their place.
 #include "error/error.hpp"
+#include "numerics/chirp.hpp"
+#include "numerics/dispatch.hpp"
+#include "numerics/phasor.hpp"
 #include "optics/aperture.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <vector>
-
-#include <Eigen/Dense>
 
 namespace wfpsf {
 
@@ -18,83 +20,63 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr double rounding = 1e-13; // of |A|^2 in units of area^2: sums of 10^4 to 10^7 terms
 using Complex = std::complex<double>;
-using Matrix = Eigen::MatrixXcd;
 
-// exp(i k u angle_j) for j = first.. of the grid (rows) at every coordinate u (columns), by
-// repeated multiplication, started afresh every 32 steps.
-Matrix waves(const FocalGrid &grid, int64_t first, int64_t rows, const double *u, int64_t count,
-             double k) {
-    Matrix out(rows, count);
+// weight exp(2 pi i turns), `stride` numbers apart.
+WFPSF_VECTORISED void waves(const double *weight, const double *turns, int64_t count, Complex *out,
+                            int64_t stride) {
     for (int64_t n = 0; n < count; ++n) {
-        const Complex turn = std::polar(1.0, k * u[n] * grid.step);
-        Complex wave;
-        for (int64_t j = 0; j < rows; ++j) {
-            wave = j % 32 == 0 ? std::polar(1.0, k * u[n] * grid.angle(first + j)) : wave * turn;
-            out(j, n) = wave;
-        }
+        double cosine, sine;
+        phasor(turns[n], cosine, sine);
+        out[n * stride] = {weight[n] * cosine, weight[n] * sine};
     }
-    return out;
 }
 
 // The transform along x of all of the mask's lines, to be transformed along y as rows are asked
 // for.
 class MaskStrips final : public DiffractionStrips {
   public:
-    // u, v: the mask's pixel centres, m.
-    MaskStrips(const Plane<double> &lit, const std::vector<double> &u, const std::vector<double> &v,
-               double scale, const Wavefront &wavefront, double wavelength, const FocalGrid &grid)
-        : v_(v), scale_(scale), k_(2 * pi / wavelength), grid_(grid), lines_(grid.size, lit.ny()) {
-        nodes_ = lit.nx() * lit.ny();
+    // lines(x of the grid, line of the mask); squared[i]: of the transform of a pixel's side at
+    // grid index i.
+    MaskStrips(Plane<Complex> lines, std::vector<double> squared, double turns, int64_t pixels)
+        : lines_(std::move(lines)), squared_(std::move(squared)),
+          along_y_(lines_.ny(), lines_.nx(), turns) {
+        nodes_ = pixels;
         error_ = rounding;
-        constexpr int64_t block = 128;
-        const Matrix along_x = waves(grid, 0, grid.size, u.data(), lit.nx(), k_);
-        for (int64_t first = 0; first < lit.ny(); first += block) {
-            const int64_t count = std::min(block, lit.ny() - first);
-            Matrix field(lit.nx(), count);
-            for (int64_t y = 0; y < count; ++y)
-                for (int64_t x = 0; x < lit.nx(); ++x) {
-                    const double transmission = lit(x, first + y);
-                    field(x, y) =
-                        transmission == 0
-                            ? Complex(0)
-                            : std::polar(transmission,
-                                         2 * pi *
-                                             wavefront(u[static_cast<size_t>(x)],
-                                                       v[static_cast<size_t>(first + y)]));
-                }
-            lines_.middleCols(first, count).noalias() = along_x * field;
-        }
     }
 
+    // Every call transforms all lines anew.
     Plane<double> rows(int64_t first, int64_t count) const override {
-        const Matrix along_y =
-            waves(grid_, first, count, v_.data(), static_cast<int64_t>(v_.size()), k_);
-        const Matrix amplitude = lines_ * along_y.transpose();
-        Plane<double> intensity(grid_.size, count);
-        for (int64_t y = 0; y < count; ++y)
-            for (int64_t x = 0; x < grid_.size; ++x)
-                intensity(x, y) = std::norm(amplitude(x, y) * square(k_ * grid_.angle(x)) *
-                                            square(k_ * grid_.angle(first + y)));
+        constexpr int64_t batch = ChirpTransform::batch;
+        std::vector<Complex> buffer = along_y_.buffer();
+        const auto at = [&buffer](int64_t element) {
+            return &buffer[static_cast<size_t>(element * batch)];
+        };
+        Plane<double> intensity(lines_.nx(), count);
+        for (int64_t begin = 0; begin < lines_.nx(); begin += batch) {
+            const int64_t columns = std::min(batch, lines_.nx() - begin);
+            for (int64_t y = 0; y < lines_.ny(); ++y)
+                std::copy_n(lines_.view().row(y) + begin, columns, at(y));
+            along_y_.run(buffer);
+            for (int64_t y = 0; y < count; ++y)
+                for (int64_t s = 0; s < columns; ++s)
+                    intensity(begin + s, y) = squared_[static_cast<size_t>(begin + s)] *
+                                              squared_[static_cast<size_t>(first + y)] *
+                                              std::norm(at(along_y_.place(first + y))[s]);
+        }
         return intensity;
     }
 
   private:
-    // The transform of one pixel's side.
-    double square(double k) const {
-        const double half = k * scale_ / 2;
-        return half == 0 ? scale_ : scale_ * std::sin(half) / half;
-    }
-
-    std::vector<double> v_;
-    double scale_, k_;
-    FocalGrid grid_;
-    Matrix lines_; // (x of the grid, line of the mask)
+    Plane<Complex> lines_;
+    std::vector<double> squared_;
+    ChirpTransform along_y_;
 };
 
 class MaskAperture final : public Aperture {
   public:
-    MaskAperture(View<const double> mask, double scale, double axis_x, double axis_y)
-        : scale_(scale) {
+    MaskAperture(View<const double> mask, double scale, double axis_x, double axis_y,
+                 MaskPixels pixels)
+        : pixels_(pixels), scale_(scale) {
         int64_t x0 = mask.nx, x1 = -1, y0 = mask.ny, y1 = -1;
         for (int64_t y = 0; y < mask.ny; ++y)
             for (int64_t x = 0; x < mask.nx; ++x) {
@@ -128,8 +110,9 @@ class MaskAperture final : public Aperture {
 
     Diffraction diffract(const Wavefront &wavefront, double wavelength, const FocalGrid &grid,
                          double eps) const override {
-        // One phase a pixel: the wavefront's slope is lost inside it, to second order.
-        const double turn = 2 * pi * wavefront.slope_bound() * scale_;
+        // One phase a square: the wavefront's slope is lost inside it, to second order.
+        const double turn =
+            pixels_ == MaskPixels::points ? 0 : 2 * pi * wavefront.slope_bound() * scale_;
         return {diffract_in_strips(wavefront, wavelength, grid, eps)->rows(0, grid.size),
                 lit_.nx() * lit_.ny(), rounding, turn * turn / 12};
     }
@@ -138,15 +121,24 @@ class MaskAperture final : public Aperture {
                                                                 double wavelength,
                                                                 const FocalGrid &grid,
                                                                 double) const override {
-        return std::make_unique<MaskStrips>(lit_, u_, v_, scale_, wavefront, wavelength, grid);
+        const double turns = scale_ * grid.step / wavelength;
+        std::vector<double> squared;
+        for (int64_t i = 0; i < grid.size; ++i)
+            squared.push_back(std::pow(side(2 * pi / wavelength * grid.angle(i)), 2));
+        return std::make_unique<MaskStrips>(along_x(wavefront, grid.size, turns),
+                                            std::move(squared), turns, lit_.nx() * lit_.ny());
     }
 
     StripMemory strip_memory(double, const FocalGrid &grid, double) const override {
-        const auto size = static_cast<int64_t>(sizeof(Complex));
-        return {size * grid.size * (lit_.nx() + lit_.ny()), 2 * size * (grid.size + lit_.ny())};
+        const int64_t lines = grid.size * lit_.ny();
+        const int64_t buffer = ChirpTransform::batch * 4 * (grid.size + lit_.ny());
+        return {static_cast<int64_t>(sizeof(Complex)) * (lines + buffer),
+                grid.size * static_cast<int64_t>(sizeof(double))};
     }
 
     PupilRaster raster(int64_t, int64_t) const override {
+        if (pixels_ == MaskPixels::points)
+            fail(WFPSF_ERROR_ARGUMENT, "mask: its pixels are points, which cover no area");
         return {.lit = lit_,
                 .scale = scale_,
                 .axis_x = -u_.front() / scale_,
@@ -154,6 +146,40 @@ class MaskAperture final : public Aperture {
     }
 
   private:
+    static constexpr int64_t batch = ChirpTransform::batch;
+    static Complex *at(std::vector<Complex> &buffer, int64_t element) {
+        return &buffer[static_cast<size_t>(element * batch)];
+    }
+
+    // Every row of the mask, aberrated and transformed, but for phases that are the same for all.
+    Plane<Complex> along_x(const Wavefront &wavefront, int64_t size, double turns) const {
+        const ChirpTransform transform(lit_.nx(), size, turns);
+        std::vector<Complex> buffer = transform.buffer();
+        std::vector<double> y(u_.size()), phases(u_.size());
+        Plane<Complex> rows(size, lit_.ny());
+        for (int64_t first = 0; first < lit_.ny(); first += batch) {
+            const int64_t count = std::min(batch, lit_.ny() - first);
+            for (int64_t s = 0; s < count; ++s) {
+                std::ranges::fill(y, v_[static_cast<size_t>(first + s)]);
+                wavefront.evaluate(u_, y, phases.data());
+                waves(lit_.view().row(first + s), phases.data(), lit_.nx(), at(buffer, 0) + s,
+                      batch);
+            }
+            transform.run(buffer);
+            for (int64_t s = 0; s < count; ++s)
+                for (int64_t x = 0; x < size; ++x)
+                    rows(x, first + s) = at(buffer, transform.place(x))[s];
+        }
+        return rows;
+    }
+
+    // The transform of one pixel along an axis.
+    double side(double k) const {
+        const double half = k * scale_ / 2;
+        return half == 0 || pixels_ == MaskPixels::points ? scale_ : scale_ * std::sin(half) / half;
+    }
+
+    MaskPixels pixels_;
     Plane<double> lit_;
     std::vector<double> u_, v_; // pixel centres, m
     double scale_;
@@ -162,8 +188,8 @@ class MaskAperture final : public Aperture {
 } // namespace
 
 std::unique_ptr<const Aperture> make_aperture(View<const double> mask, double scale, double axis_x,
-                                              double axis_y) {
-    return std::make_unique<MaskAperture>(mask, scale, axis_x, axis_y);
+                                              double axis_y, MaskPixels pixels) {
+    return std::make_unique<MaskAperture>(mask, scale, axis_x, axis_y, pixels);
 }
 
 } // namespace wfpsf

@@ -47,6 +47,8 @@ enum { WFPSF_OPTION_REAL = 1, WFPSF_OPTION_INTEGER = 2 };
     X(JITTER_YY, 162, REAL, 0, 0, 1e4, "variance of the jitter along y, arcsec^2")                 \
     X(CHARGE_DIFFUSION, 170, REAL, 0, 0, 16,                                                       \
       "standard deviation of the Gaussian that charge diffuses over, native pixels")               \
+    X(MASK_POINTS, 180, INTEGER, 0, 0, 1,                                                          \
+      "1: a mask's pixels are points at their centres, not squares")                               \
     X(FORCE, 200, INTEGER, 0, 0, 1,                                                                \
       "1: apply an effect even to an image that records it as applied")                            \
     X(IPC_FILL, 210, REAL, 0, -1.7976931348623157e308, 1.7976931348623157e308,                     \

@@ -130,12 +130,13 @@ WFPSF_EXPORT wfpsf_status wfpsf_psf_create_chromatic(const wfpsf_instrument *ins
 
 /**
  * The PSF at the centre of a detector with the pupil given as a mask: every pixel a square of that
- * transmission, with the phase of its centre. Takes a second for a mask of 4096 x 4096.
+ * transmission, with the phase of its centre. MASK_POINTS 1 makes them points of as much light,
+ * which is what plain sums over masks are; such a PSF has no OTF (ERROR_ARGUMENT).
  *
  * Given:    mask            transmissions in [0, 1]; copied
  *           mask_scale_m    side of a mask pixel, metres, > 0
  *           axis_x, axis_y  position of the optical axis in the mask, first pixel at (0, 0)
- *           others          as for wfpsf_psf_create(); STRUTS does not matter
+ *           others          as for wfpsf_psf_create(), and MASK_POINTS; STRUTS does not matter
  * Returned: out             the handle; NULL on failure
  * Status:   as for wfpsf_psf_create(), ERROR_ARGUMENT if nothing is lit
  */

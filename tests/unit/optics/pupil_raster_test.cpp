@@ -71,7 +71,7 @@ TEST(PupilRaster, BlocksOfPixelsAddUp) {
     }
 }
 
-// The two engine paths: quadrature nodes and nonuniform FFT, area-weighted mask and matrix Fourier
+// The two engine paths: quadrature nodes and nonuniform FFT, area-weighted mask and chirp
 // transform. The mask's error falls as the square of its pixel.
 TEST(PupilRaster, BothEnginePathsAgree) {
     for (const Case &c : cases())
