@@ -30,7 +30,7 @@ template <class T> Case ipc_case(const char *name, const IpcKernel &kernel, int6
                                                sizeof(T) * static_cast<size_t>(n * n));
                                }).median_s;
                 m.timing = time([&] {
-                    convolve(kernel, std::as_const(in).view(), Edge::zero, 0, tap_step, out.view());
+                    convolve(kernel, std::as_const(in).view(), {.tap_step = tap_step}, out.view());
                 });
                 for (int64_t y = 0; y < n; y += 97)
                     for (int64_t x = 0; x < n; x += 89) {

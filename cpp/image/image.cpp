@@ -79,7 +79,7 @@ const char *effect_name(Effect effect) {
     case Effect::ipc_correction:
         return "correction of interpixel capacitance";
     }
-    return "unknown effect";
+    return "one of several effects at once";
 }
 
 Image::Image(PixelType type, int64_t nx, int64_t ny) {

@@ -2,7 +2,6 @@
 #include "numerics/fft.hpp"
 
 #include <map>
-#include <mutex>
 #include <new>
 
 #include <fftw3.h>
@@ -24,11 +23,15 @@ int64_t good_fft_length(int64_t n) {
     }
 }
 
+std::mutex &fftw_planner_lock() {
+    static auto &lock = *new std::mutex; // outlives every thread
+    return lock;
+}
+
 BackwardFft::BackwardFft(int64_t n) {
-    static std::mutex lock;
     // For the life of the process: never destroyed, so that threads may outlive main().
     static auto &plans = *new std::map<int64_t, fftw_plan>;
-    const std::lock_guard guard(lock);
+    const std::lock_guard guard(fftw_planner_lock());
     fftw_plan &plan = plans[n];
     if (!plan) {
         // Unaligned, so that any buffer will do; an estimate does not touch the data.

@@ -15,10 +15,10 @@
 ! an object that goes out of scope is emptied. An object cannot be assigned to another.
 module wfpsf
     use, intrinsic :: iso_c_binding, only: c_null_ptr, c_ptr
-    use, intrinsic :: iso_fortran_env, only: real32, real64
+    use, intrinsic :: iso_fortran_env, only: int64, real32, real64
     use wfpsf_constants
     implicit none
-    private :: c_null_ptr, c_ptr, real32, real64, handle
+    private :: c_null_ptr, c_ptr, int64, real32, real64, handle
 
     ! What all objects have in common: a pointer to the library's own.
     type :: handle
@@ -103,9 +103,18 @@ module wfpsf
         procedure :: create_default => kernel_create_default
         procedure :: create_correction => kernel_create_correction
         procedure :: create_flipped => kernel_create_flipped
+        procedure :: read_fits => kernel_read_fits
+        procedure :: create_composed => kernel_create_composed
+        procedure :: create_neumann => kernel_create_neumann
+        procedure :: create_autocorrelation => kernel_create_autocorrelation
         procedure :: destroy => kernel_destroy
         procedure :: get_taps => kernel_get_taps
+        procedure :: get => kernel_get
+        procedure :: transform => kernel_transform
+        procedure :: self_test => kernel_self_test
         procedure :: apply => kernel_apply
+        procedure :: correct => kernel_correct
+        procedure :: covariance => kernel_covariance
         final :: kernel_finalize
     end type wfpsf_ipc_kernel
 
@@ -551,7 +560,9 @@ module wfpsf
     ! IPC kernels.
     private :: kernel_create, kernel_create_taps, kernel_create_wfc3, kernel_create_default
     private :: kernel_create_correction, kernel_create_flipped, kernel_destroy, kernel_get_taps
-    private :: kernel_apply, kernel_finalize
+    private :: kernel_read_fits, kernel_create_composed, kernel_create_neumann
+    private :: kernel_create_autocorrelation, kernel_get, kernel_transform, kernel_self_test
+    private :: kernel_apply, kernel_correct, kernel_covariance, kernel_finalize
     interface
         ! The paper's 3 x 3 kernel. Option: kernel_negative.
         module subroutine kernel_create(self, alpha, alpha_prime, alpha_plus, options, stat, errmsg)
@@ -602,6 +613,41 @@ module wfpsf
             character(len=*), intent(inout), optional :: errmsg
         end subroutine kernel_create_flipped
 
+        ! From a FITS image of the taps. Options: kernel_negative, kernel_normalise.
+        module subroutine kernel_read_fits(self, path, hdu, options, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(inout) :: self
+            character(len=*), intent(in) :: path
+            character(len=*), intent(in), optional :: hdu
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_read_fits
+
+        ! What `first` does and then `second`.
+        module subroutine kernel_create_composed(self, first, second, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(inout) :: self
+            type(wfpsf_ipc_kernel), intent(in) :: first, second
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_create_composed
+
+        ! The correction of an order >= 0.
+        module subroutine kernel_create_neumann(self, kernel, order, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(inout) :: self
+            type(wfpsf_ipc_kernel), intent(in) :: kernel
+            integer, intent(in) :: order
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_create_neumann
+
+        ! Covariance, by lag, of white noise of variance 1 after another kernel.
+        module subroutine kernel_create_autocorrelation(self, kernel, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(inout) :: self
+            type(wfpsf_ipc_kernel), intent(in) :: kernel
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_create_autocorrelation
+
         module subroutine kernel_destroy(self)
             class(wfpsf_ipc_kernel), intent(inout) :: self
         end subroutine kernel_destroy
@@ -613,7 +659,35 @@ module wfpsf
             character(len=*), intent(inout), optional :: errmsg
         end subroutine kernel_get_taps
 
-        ! Convolves one image into another; edge: wfpsf_edge_*. Options: ipc_fill, force.
+        ! A property, wfpsf_kernel_*.
+        module subroutine kernel_get(self, key, value, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(in) :: self
+            integer, intent(in) :: key
+            real(real64), intent(inout) :: value
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_get
+
+        ! The transform at a frequency, cycles per pixel.
+        module subroutine kernel_transform(self, frequency_x, frequency_y, value, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(in) :: self
+            real(real64), intent(in) :: frequency_x, frequency_y
+            complex(real64), intent(inout) :: value
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_transform
+
+        ! What apply makes of one unit of charge in the middle. Option: ipc_form.
+        module subroutine kernel_self_test(self, response, options, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(in) :: self
+            real(real64), allocatable, intent(out) :: response(:, :)
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_self_test
+
+        ! Applies the kernel; edge: wfpsf_edge_*. `to` may be `from`. Options: ipc_form, ipc_fill,
+        ! force, threads.
         module subroutine kernel_apply(self, from, edge, to, options, stat, errmsg)
             class(wfpsf_ipc_kernel), intent(in) :: self
             type(wfpsf_image), intent(in) :: from
@@ -623,6 +697,33 @@ module wfpsf
             integer, intent(out), optional :: stat
             character(len=*), intent(inout), optional :: errmsg
         end subroutine kernel_apply
+
+        ! Undoes the kernel exactly; edge: wfpsf_edge_zero, _replicate or _wrap. `to` may be `from`.
+        ! Options: ipc_form, ipc_least_margin, ipc_tolerance, ipc_max_passes, force, threads.
+        module subroutine kernel_correct(self, from, edge, to, options, residual, noise_amplification, &
+                passes, not_finite, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(in) :: self
+            type(wfpsf_image), intent(in) :: from
+            integer, intent(in) :: edge
+            type(wfpsf_image), intent(inout) :: to
+            type(wfpsf_options), intent(in), optional :: options
+            real(real64), intent(inout), optional :: residual, noise_amplification
+            integer(int64), intent(inout), optional :: passes, not_finite
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_correct
+
+        ! Covariance of pixels (lag_x, lag_y) apart, of noise of that variance before the kernel.
+        ! Option: threads.
+        module subroutine kernel_covariance(self, variance, lag_x, lag_y, edge, to, options, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(in) :: self
+            type(wfpsf_image), intent(in) :: variance
+            integer, intent(in) :: lag_x, lag_y, edge
+            type(wfpsf_image), intent(inout) :: to
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_covariance
 
         impure elemental module subroutine kernel_finalize(self)
             type(wfpsf_ipc_kernel), intent(inout) :: self

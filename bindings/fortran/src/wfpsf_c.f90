@@ -31,6 +31,7 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_error_overlap = -80
     integer(c_int32_t), parameter :: wfpsf_error_already_applied = -90
     integer(c_int32_t), parameter :: wfpsf_error_kernel = -100
+    integer(c_int32_t), parameter :: wfpsf_error_kernel_singular = -110
     integer(c_int32_t), parameter :: wfpsf_error_file_open = -200
     integer(c_int32_t), parameter :: wfpsf_error_file_format = -210
     integer(c_int32_t), parameter :: wfpsf_error_file_write = -220
@@ -56,6 +57,10 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_option_ipc_fill = 210
     integer(c_int32_t), parameter :: wfpsf_option_kernel_negative = 220
     integer(c_int32_t), parameter :: wfpsf_option_kernel_normalise = 230
+    integer(c_int32_t), parameter :: wfpsf_option_ipc_form = 240
+    integer(c_int32_t), parameter :: wfpsf_option_ipc_least_margin = 250
+    integer(c_int32_t), parameter :: wfpsf_option_ipc_tolerance = 260
+    integer(c_int32_t), parameter :: wfpsf_option_ipc_max_passes = 270
     integer(c_int32_t), parameter :: wfpsf_option_moments_tolerance = 300
     integer(c_int32_t), parameter :: wfpsf_option_moments_max_passes = 310
     integer(c_int32_t), parameter :: wfpsf_option_moments_guess_x = 320
@@ -94,6 +99,25 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_psf_lit_area_m2 = 100
 
     ! ipc.h
+    integer(c_int32_t), parameter :: wfpsf_kernel_sum = 10
+    integer(c_int32_t), parameter :: wfpsf_kernel_centroid_x = 20
+    integer(c_int32_t), parameter :: wfpsf_kernel_centroid_y = 30
+    integer(c_int32_t), parameter :: wfpsf_kernel_mxx = 40
+    integer(c_int32_t), parameter :: wfpsf_kernel_mxy = 50
+    integer(c_int32_t), parameter :: wfpsf_kernel_myy = 60
+    integer(c_int32_t), parameter :: wfpsf_kernel_left_right = 100
+    integer(c_int32_t), parameter :: wfpsf_kernel_up_down = 110
+    integer(c_int32_t), parameter :: wfpsf_kernel_half_turn = 120
+    integer(c_int32_t), parameter :: wfpsf_kernel_transposed = 130
+    integer(c_int32_t), parameter :: wfpsf_kernel_margin = 200
+    integer(c_int32_t), parameter :: wfpsf_kernel_margin_frequency_x = 210
+    integer(c_int32_t), parameter :: wfpsf_kernel_margin_frequency_y = 220
+    integer(c_int32_t), parameter :: wfpsf_kernel_variance_ratio = 300
+    integer(c_int32_t), parameter :: wfpsf_kernel_conversion_gain_bias = 310
+    integer(c_int32_t), parameter :: wfpsf_kernel_quantum_efficiency_bias = 320
+    integer(c_int32_t), parameter :: wfpsf_kernel_inverse_noise = 330
+    integer(c_int32_t), parameter :: wfpsf_ipc_scatter = 0
+    integer(c_int32_t), parameter :: wfpsf_ipc_gather = 1
     integer(c_int32_t), parameter :: wfpsf_edge_zero = 0
     integer(c_int32_t), parameter :: wfpsf_edge_replicate = 1
     integer(c_int32_t), parameter :: wfpsf_edge_wrap = 2
@@ -609,6 +633,55 @@ module wfpsf_c
             integer(c_int32_t) :: outcome
         end function wfpsf_ipc_kernel_create_flipped
 
+        function wfpsf_ipc_kernel_read_fits(path, hdu, options, out) &
+            bind(c, name="wfpsf_ipc_kernel_read_fits") result(outcome)
+            import :: c_char, c_int32_t, c_ptr
+            implicit none
+            character(kind=c_char), intent(in), optional :: path(*)
+            character(kind=c_char), intent(in), optional :: hdu(*)
+            type(c_ptr), value :: options
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_kernel_read_fits
+
+        function wfpsf_ipc_kernel_create_composed(first, second, out) &
+            bind(c, name="wfpsf_ipc_kernel_create_composed") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: first
+            type(c_ptr), value :: second
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_kernel_create_composed
+
+        function wfpsf_ipc_kernel_create_neumann(kernel, order, out) &
+            bind(c, name="wfpsf_ipc_kernel_create_neumann") result(outcome)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: kernel
+            integer(c_int64_t), value :: order
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_kernel_create_neumann
+
+        function wfpsf_ipc_kernel_create_autocorrelation(kernel, out) &
+            bind(c, name="wfpsf_ipc_kernel_create_autocorrelation") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: kernel
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_kernel_create_autocorrelation
+
+        function wfpsf_ipc_wfc3_deviations(capacity, deviations) &
+            bind(c, name="wfpsf_ipc_wfc3_deviations") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t
+            implicit none
+            integer(c_int64_t), value :: capacity
+            real(c_double), intent(inout), optional :: deviations(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_wfc3_deviations
+
         subroutine wfpsf_ipc_kernel_destroy(kernel) bind(c, name="wfpsf_ipc_kernel_destroy")
             import :: c_ptr
             implicit none
@@ -627,6 +700,28 @@ module wfpsf_c
             integer(c_int32_t) :: outcome
         end function wfpsf_ipc_kernel_taps
 
+        function wfpsf_ipc_kernel_get(kernel, key, value) &
+            bind(c, name="wfpsf_ipc_kernel_get") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: kernel
+            integer(c_int32_t), value :: key
+            real(c_double), intent(inout), optional :: value
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_kernel_get
+
+        function wfpsf_ipc_kernel_transform(kernel, frequency_x, frequency_y, real_part, &
+            imaginary_part) bind(c, name="wfpsf_ipc_kernel_transform") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: kernel
+            real(c_double), value :: frequency_x
+            real(c_double), value :: frequency_y
+            real(c_double), intent(inout), optional :: real_part
+            real(c_double), intent(inout), optional :: imaginary_part
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_kernel_transform
+
         function wfpsf_ipc_apply(kernel, in, edge, options, out) &
             bind(c, name="wfpsf_ipc_apply") result(outcome)
             import :: c_int32_t, c_ptr
@@ -638,6 +733,47 @@ module wfpsf_c
             type(c_ptr), value :: out
             integer(c_int32_t) :: outcome
         end function wfpsf_ipc_apply
+
+        function wfpsf_ipc_kernel_self_test(kernel, options, capacity, response) &
+            bind(c, name="wfpsf_ipc_kernel_self_test") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: kernel
+            type(c_ptr), value :: options
+            integer(c_int64_t), value :: capacity
+            real(c_double), intent(inout), optional :: response(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_kernel_self_test
+
+        function wfpsf_ipc_correct(kernel, in, edge, options, out, residual, noise_amplification, &
+            passes, not_finite) bind(c, name="wfpsf_ipc_correct") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: kernel
+            type(c_ptr), value :: in
+            integer(c_int32_t), value :: edge
+            type(c_ptr), value :: options
+            type(c_ptr), value :: out
+            real(c_double), intent(inout), optional :: residual
+            real(c_double), intent(inout), optional :: noise_amplification
+            integer(c_int64_t), intent(inout), optional :: passes
+            integer(c_int64_t), intent(inout), optional :: not_finite
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_correct
+
+        function wfpsf_ipc_covariance(kernel, variance, lag_x, lag_y, edge, options, out) &
+            bind(c, name="wfpsf_ipc_covariance") result(outcome)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: kernel
+            type(c_ptr), value :: variance
+            integer(c_int64_t), value :: lag_x
+            integer(c_int64_t), value :: lag_y
+            integer(c_int32_t), value :: edge
+            type(c_ptr), value :: options
+            type(c_ptr), value :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_covariance
 
         ! moments.h
         function wfpsf_moments_measure(image, options, out) &

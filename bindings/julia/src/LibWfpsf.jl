@@ -47,6 +47,7 @@ const WFPSF_ERROR_UNKNOWN_NAME = Int32(-70)
 const WFPSF_ERROR_OVERLAP = Int32(-80)
 const WFPSF_ERROR_ALREADY_APPLIED = Int32(-90)
 const WFPSF_ERROR_KERNEL = Int32(-100)
+const WFPSF_ERROR_KERNEL_SINGULAR = Int32(-110)
 const WFPSF_ERROR_FILE_OPEN = Int32(-200)
 const WFPSF_ERROR_FILE_FORMAT = Int32(-210)
 const WFPSF_ERROR_FILE_WRITE = Int32(-220)
@@ -90,6 +91,10 @@ const WFPSF_OPTION_FORCE = Int32(200)
 const WFPSF_OPTION_IPC_FILL = Int32(210)
 const WFPSF_OPTION_KERNEL_NEGATIVE = Int32(220)
 const WFPSF_OPTION_KERNEL_NORMALISE = Int32(230)
+const WFPSF_OPTION_IPC_FORM = Int32(240)
+const WFPSF_OPTION_IPC_LEAST_MARGIN = Int32(250)
+const WFPSF_OPTION_IPC_TOLERANCE = Int32(260)
+const WFPSF_OPTION_IPC_MAX_PASSES = Int32(270)
 const WFPSF_OPTION_MOMENTS_TOLERANCE = Int32(300)
 const WFPSF_OPTION_MOMENTS_MAX_PASSES = Int32(310)
 const WFPSF_OPTION_MOMENTS_GUESS_X = Int32(320)
@@ -348,6 +353,25 @@ function wfpsf_psf_get(psf, key, value)
 end
 
 # ipc.h
+const WFPSF_KERNEL_SUM = Int32(10)
+const WFPSF_KERNEL_CENTROID_X = Int32(20)
+const WFPSF_KERNEL_CENTROID_Y = Int32(30)
+const WFPSF_KERNEL_MXX = Int32(40)
+const WFPSF_KERNEL_MXY = Int32(50)
+const WFPSF_KERNEL_MYY = Int32(60)
+const WFPSF_KERNEL_LEFT_RIGHT = Int32(100)
+const WFPSF_KERNEL_UP_DOWN = Int32(110)
+const WFPSF_KERNEL_HALF_TURN = Int32(120)
+const WFPSF_KERNEL_TRANSPOSED = Int32(130)
+const WFPSF_KERNEL_MARGIN = Int32(200)
+const WFPSF_KERNEL_MARGIN_FREQUENCY_X = Int32(210)
+const WFPSF_KERNEL_MARGIN_FREQUENCY_Y = Int32(220)
+const WFPSF_KERNEL_VARIANCE_RATIO = Int32(300)
+const WFPSF_KERNEL_CONVERSION_GAIN_BIAS = Int32(310)
+const WFPSF_KERNEL_QUANTUM_EFFICIENCY_BIAS = Int32(320)
+const WFPSF_KERNEL_INVERSE_NOISE = Int32(330)
+const WFPSF_IPC_SCATTER = Int32(0)
+const WFPSF_IPC_GATHER = Int32(1)
 const WFPSF_EDGE_ZERO = Int32(0)
 const WFPSF_EDGE_REPLICATE = Int32(1)
 const WFPSF_EDGE_WRAP = Int32(2)
@@ -393,6 +417,40 @@ function wfpsf_ipc_kernel_create_flipped(kernel, out)
         kernel, out)
 end
 
+const wfpsf_ipc_kernel_read_fits_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_read_fits(path, hdu, options, out)
+    return ccall(wfpsf_ipc_kernel_read_fits_pointer[], Int32, (Cstring, Cstring, Ptr{Cvoid},
+        Ptr{Ptr{Cvoid}}),
+        path, hdu, options, out)
+end
+
+const wfpsf_ipc_kernel_create_composed_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_create_composed(first, second, out)
+    return ccall(wfpsf_ipc_kernel_create_composed_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid},
+        Ptr{Ptr{Cvoid}}),
+        first, second, out)
+end
+
+const wfpsf_ipc_kernel_create_neumann_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_create_neumann(kernel, order, out)
+    return ccall(wfpsf_ipc_kernel_create_neumann_pointer[], Int32, (Ptr{Cvoid}, Int64,
+        Ptr{Ptr{Cvoid}}),
+        kernel, order, out)
+end
+
+const wfpsf_ipc_kernel_create_autocorrelation_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_create_autocorrelation(kernel, out)
+    return ccall(wfpsf_ipc_kernel_create_autocorrelation_pointer[], Int32, (Ptr{Cvoid},
+        Ptr{Ptr{Cvoid}}),
+        kernel, out)
+end
+
+const wfpsf_ipc_wfc3_deviations_pointer = Ref(C_NULL)
+function wfpsf_ipc_wfc3_deviations(capacity, deviations)
+    return ccall(wfpsf_ipc_wfc3_deviations_pointer[], Int32, (Int64, Ptr{Float64}),
+        capacity, deviations)
+end
+
 const wfpsf_ipc_kernel_destroy_pointer = Ref(C_NULL)
 function wfpsf_ipc_kernel_destroy(kernel)
     return ccall(wfpsf_ipc_kernel_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
@@ -406,11 +464,46 @@ function wfpsf_ipc_kernel_taps(kernel, capacity, taps, nx, ny)
         kernel, capacity, taps, nx, ny)
 end
 
+const wfpsf_ipc_kernel_get_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_get(kernel, key, value)
+    return ccall(wfpsf_ipc_kernel_get_pointer[], Int32, (Ptr{Cvoid}, Int32, Ptr{Float64}),
+        kernel, key, value)
+end
+
+const wfpsf_ipc_kernel_transform_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_transform(kernel, frequency_x, frequency_y, real_part, imaginary_part)
+    return ccall(wfpsf_ipc_kernel_transform_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64,
+        Ptr{Float64}, Ptr{Float64}),
+        kernel, frequency_x, frequency_y, real_part, imaginary_part)
+end
+
 const wfpsf_ipc_apply_pointer = Ref(C_NULL)
 function wfpsf_ipc_apply(kernel, input, edge, options, out)
     return ccall(wfpsf_ipc_apply_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int32, Ptr{Cvoid},
         Ptr{Cvoid}),
         kernel, input, edge, options, out)
+end
+
+const wfpsf_ipc_kernel_self_test_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_self_test(kernel, options, capacity, response)
+    return ccall(wfpsf_ipc_kernel_self_test_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int64,
+        Ptr{Float64}),
+        kernel, options, capacity, response)
+end
+
+const wfpsf_ipc_correct_pointer = Ref(C_NULL)
+function wfpsf_ipc_correct(kernel, input, edge, options, out, residual, noise_amplification, passes,
+    not_finite)
+    return ccall(wfpsf_ipc_correct_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int32, Ptr{Cvoid},
+        Ptr{Cvoid}, Ptr{Float64}, Ptr{Float64}, Ptr{Int64}, Ptr{Int64}),
+        kernel, input, edge, options, out, residual, noise_amplification, passes, not_finite)
+end
+
+const wfpsf_ipc_covariance_pointer = Ref(C_NULL)
+function wfpsf_ipc_covariance(kernel, variance, lag_x, lag_y, edge, options, out)
+    return ccall(wfpsf_ipc_covariance_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int64, Int64,
+        Int32, Ptr{Cvoid}, Ptr{Cvoid}),
+        kernel, variance, lag_x, lag_y, edge, options, out)
 end
 
 # moments.h
@@ -536,9 +629,19 @@ const pointers = [
     :wfpsf_ipc_kernel_create_default => wfpsf_ipc_kernel_create_default_pointer,
     :wfpsf_ipc_kernel_create_correction => wfpsf_ipc_kernel_create_correction_pointer,
     :wfpsf_ipc_kernel_create_flipped => wfpsf_ipc_kernel_create_flipped_pointer,
+    :wfpsf_ipc_kernel_read_fits => wfpsf_ipc_kernel_read_fits_pointer,
+    :wfpsf_ipc_kernel_create_composed => wfpsf_ipc_kernel_create_composed_pointer,
+    :wfpsf_ipc_kernel_create_neumann => wfpsf_ipc_kernel_create_neumann_pointer,
+    :wfpsf_ipc_kernel_create_autocorrelation => wfpsf_ipc_kernel_create_autocorrelation_pointer,
+    :wfpsf_ipc_wfc3_deviations => wfpsf_ipc_wfc3_deviations_pointer,
     :wfpsf_ipc_kernel_destroy => wfpsf_ipc_kernel_destroy_pointer,
     :wfpsf_ipc_kernel_taps => wfpsf_ipc_kernel_taps_pointer,
+    :wfpsf_ipc_kernel_get => wfpsf_ipc_kernel_get_pointer,
+    :wfpsf_ipc_kernel_transform => wfpsf_ipc_kernel_transform_pointer,
     :wfpsf_ipc_apply => wfpsf_ipc_apply_pointer,
+    :wfpsf_ipc_kernel_self_test => wfpsf_ipc_kernel_self_test_pointer,
+    :wfpsf_ipc_correct => wfpsf_ipc_correct_pointer,
+    :wfpsf_ipc_covariance => wfpsf_ipc_covariance_pointer,
     :wfpsf_moments_measure => wfpsf_moments_measure_pointer,
     :wfpsf_moments_measure_unweighted => wfpsf_moments_measure_unweighted_pointer,
     :wfpsf_moments_destroy => wfpsf_moments_destroy_pointer,

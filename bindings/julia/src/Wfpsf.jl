@@ -30,7 +30,9 @@ export WfpsfError, options,
     Image, record, set_record!, read_fits, write_fits,
     interleave, interleave!, deinterleave, deinterleave!,
     PSF, draw, draw!, add_stars!,
-    IPCKernel, wfc3_kernel, correction, flipped, taps, apply_ipc, apply_ipc!,
+    IPCKernel, wfc3_kernel, wfc3_deviations, read_kernel, correction, flipped, compose,
+    autocorrelation, taps, properties, transform, self_test, apply_ipc, apply_ipc!, correct_ipc!,
+    covariance,
     Moments, adaptive_moments, unweighted_moments,
     encircled_energy, ee_radius, fwhm
 

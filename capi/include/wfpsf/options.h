@@ -49,6 +49,13 @@ enum { WFPSF_OPTION_REAL = 1, WFPSF_OPTION_INTEGER = 2 };
     X(KERNEL_NEGATIVE, 220, INTEGER, 0, 0, 1,                                                      \
       "1: taps outside [0, 1] are allowed, as correction kernels need")                            \
     X(KERNEL_NORMALISE, 230, INTEGER, 0, 0, 1, "1: taps are divided by their sum")                 \
+    X(IPC_FORM, 240, INTEGER, 0, 0, 1,                                                             \
+      "0: scatter, a convolution with the kernel; 1: gather, a correlation")                       \
+    X(IPC_LEAST_MARGIN, 250, REAL, 1e-3, 0, 1,                                                     \
+      "min |K^| below which an exact correction is refused")                                       \
+    X(IPC_TOLERANCE, 260, REAL, 1e-15, 1e-16, 0.1,                                                 \
+      "residual of an exact correction to stop at, over the largest pixel")                        \
+    X(IPC_MAX_PASSES, 270, INTEGER, 1000, 1, 1000000, "most passes of an exact correction")        \
     X(MOMENTS_TOLERANCE, 300, REAL, 1e-8, 1e-12, 1e-2,                                             \
       "largest whitened error of centroid and moments")                                            \
     X(MOMENTS_MAX_PASSES, 310, INTEGER, 200, 1, 100000, "most passes over the image")              \
