@@ -54,6 +54,8 @@ module wfpsf
         procedure :: band_name => instrument_band_name
         procedure :: throughput => instrument_throughput
         procedure :: zernikes => instrument_zernikes
+        procedure :: get_sky_level => instrument_get_sky_level
+        procedure :: get_sky_background => instrument_get_sky_background
         final :: instrument_finalize
     end type wfpsf_instrument
 
@@ -117,6 +119,20 @@ module wfpsf
         procedure :: covariance => kernel_covariance
         final :: kernel_finalize
     end type wfpsf_ipc_kernel
+
+    ! A detector's effects in a stated order.
+    type, extends(handle) :: wfpsf_chain
+    contains
+        procedure :: create => chain_create
+        procedure :: create_default => chain_create_default
+        procedure :: destroy => chain_destroy
+        procedure :: add => chain_add
+        procedure :: add_ipc => chain_add_ipc
+        procedure :: add_map => chain_add_map
+        procedure :: get_step => chain_get_step
+        procedure :: apply => chain_apply
+        final :: chain_finalize
+    end type wfpsf_chain
 
     ! The result of a measurement.
     type, extends(handle) :: wfpsf_moments
@@ -728,6 +744,118 @@ module wfpsf
         impure elemental module subroutine kernel_finalize(self)
             type(wfpsf_ipc_kernel), intent(inout) :: self
         end subroutine kernel_finalize
+    end interface
+
+    ! Detector chains, noise, the sky.
+    private :: chain_create, chain_create_default, chain_destroy, chain_add, chain_add_ipc
+    private :: chain_add_map, chain_get_step, chain_apply, chain_finalize
+    private :: instrument_get_sky_level, instrument_get_sky_background
+    interface
+        ! An empty chain.
+        module subroutine chain_create(self, stat, errmsg)
+            class(wfpsf_chain), intent(inout) :: self
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine chain_create
+
+        ! The instrument's own, for its own exposure time (s) or another.
+        module subroutine chain_create_default(self, instrument, exposure_time, stat, errmsg)
+            class(wfpsf_chain), intent(inout) :: self
+            type(wfpsf_instrument), intent(in) :: instrument
+            real(real64), intent(in), optional :: exposure_time
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine chain_create_default
+
+        module subroutine chain_destroy(self)
+            class(wfpsf_chain), intent(inout) :: self
+        end subroutine chain_destroy
+
+        ! Adds wfpsf_step_* at the end, with its parameters.
+        module subroutine chain_add(self, step, parameters, stat, errmsg)
+            class(wfpsf_chain), intent(inout) :: self
+            integer, intent(in) :: step
+            real(real64), intent(in), contiguous :: parameters(:)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine chain_add
+
+        ! edge: wfpsf_edge_zero, _replicate, _wrap or _crop.
+        module subroutine chain_add_ipc(self, kernel, edge, stat, errmsg)
+            class(wfpsf_chain), intent(inout) :: self
+            type(wfpsf_ipc_kernel), intent(in) :: kernel
+            integer, intent(in) :: edge
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine chain_add_ipc
+
+        ! Adds a step with a map, which is copied.
+        module subroutine chain_add_map(self, step, parameters, map, stat, errmsg)
+            class(wfpsf_chain), intent(inout) :: self
+            integer, intent(in) :: step
+            real(real64), intent(in), contiguous :: parameters(:)
+            type(wfpsf_image), intent(in) :: map
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine chain_add_map
+
+        ! The index-th step, from 1; step is 0 past the last one.
+        module subroutine chain_get_step(self, index, step, parameters, stat, errmsg)
+            class(wfpsf_chain), intent(in) :: self
+            integer, intent(in) :: index
+            integer, intent(out) :: step
+            real(real64), allocatable, intent(out) :: parameters(:)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine chain_get_step
+
+        ! Applies the chain in place. previous: exposures before this one, the latest first.
+        ! Options: seed, stream, origin_x, origin_y, noise, force, threads.
+        module subroutine chain_apply(self, image, previous, options, not_finite, saturated, stat, errmsg)
+            class(wfpsf_chain), intent(in) :: self
+            type(wfpsf_image), intent(inout) :: image
+            type(wfpsf_image), intent(in), optional :: previous(:)
+            type(wfpsf_options), intent(in), optional :: options
+            integer(int64), intent(inout), optional :: not_finite, saturated
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine chain_apply
+
+        impure elemental module subroutine chain_finalize(self)
+            type(wfpsf_chain), intent(inout) :: self
+        end subroutine chain_finalize
+
+        ! Adds normal noise, white or through a kernel. Options: seed, stream, origin_x, origin_y,
+        ! threads.
+        module subroutine wfpsf_add_noise(image, rms, kernel, options, stat, errmsg)
+            type(wfpsf_image), intent(inout) :: image
+            real(real64), intent(in) :: rms
+            type(wfpsf_ipc_kernel), intent(in), optional :: kernel
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine wfpsf_add_noise
+
+        ! Zodiacal light, e-/s/arcsec2; degrees, the longitude from the Sun.
+        module subroutine instrument_get_sky_level(self, band, longitude, latitude, level, stat, errmsg)
+            class(wfpsf_instrument), intent(in) :: self
+            character(len=*), intent(in) :: band
+            real(real64), intent(in) :: longitude, latitude
+            real(real64), intent(inout) :: level
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine instrument_get_sky_level
+
+        ! Zodiacal, stray and thermal background of a pixel (area in arcsec2) in an exposure (s).
+        module subroutine instrument_get_sky_background(self, band, longitude, latitude, exposure_time, &
+                pixel_area, electrons, stat, errmsg)
+            class(wfpsf_instrument), intent(in) :: self
+            character(len=*), intent(in) :: band
+            real(real64), intent(in) :: longitude, latitude, exposure_time, pixel_area
+            real(real64), intent(inout) :: electrons
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine instrument_get_sky_background
     end interface
 
     ! Moments.

@@ -23,6 +23,7 @@ program test_arrays
     call interleaves()
     call passes_taps()
     call corrects_ipc()
+    call runs_a_chain()
     call passes_instrument_arrays()
 
 contains
@@ -246,6 +247,51 @@ contains
         call kernel%covariance(map, 0, 0, wfpsf_edge_wrap, map)
         call expect(maxval(abs(variance - taps(3, 3))) < 1e-15_real64, "variance")
     end subroutine corrects_ipc
+
+    subroutine runs_a_chain()
+        type(wfpsf_instrument) :: roman
+        type(wfpsf_chain) :: chain, own
+        type(wfpsf_options) :: options
+        type(wfpsf_image) :: image, previous(1)
+        real(real64), target :: a(9, 7), before(9, 7)
+        real(real64), allocatable :: parameters(:)
+        real(real64) :: level, electrons
+        integer(int64) :: not_finite, saturated
+        integer :: step, stat
+
+        call roman%create("roman-c9")
+        call chain%create_default(roman)
+        call chain%get_step(4, step, parameters)
+        call expect(step == wfpsf_step_reciprocity_failure .and. size(parameters) == 3, "step 4")
+        call chain%get_step(12, step, parameters)
+        call expect(step == 0, "past the last step")
+        a = 1000
+        before = 60000
+        call image%wrap(a, 1)
+        call previous(1)%wrap(before, 1)
+        call options%create()
+        call options%set(wfpsf_option_seed, 42)
+        call chain%apply(image, previous, options, not_finite, saturated)
+        call expect(not_finite == 0 .and. saturated == 0, "counts")
+        call expect(abs(sum(a) / size(a) - 1000) < 100, "mean after the chain")
+        call chain%apply(image, stat=stat)
+        call expect(stat == wfpsf_error_already_applied, "twice")
+
+        call own%create()
+        call own%add(wfpsf_step_nonlinearity, [-1e-6_real64])
+        call own%add(wfpsf_step_saturation, [50000.0_real64])
+        call own%add_map(wfpsf_step_pixel_mask, [0.0_real64, 1.0_real64], previous(1))
+        call own%apply(previous(1), saturated=saturated)
+        call expect(all(before == 50000) .and. saturated == 63, "own chain")
+
+        a = 0
+        call wfpsf_add_noise(image, 3.0_real64)
+        call expect(any(a > 0) .and. any(a < 0), "noise")
+        call roman%get_sky_level("F184", 180.0_real64, 90.0_real64, level)
+        call roman%get_sky_background("F184", 180.0_real64, 90.0_real64, 10.0_real64, &
+            0.0121_real64, electrons)
+        call expect(abs(electrons - 10 * (1.1 * 0.0121_real64 * level + 0.17_real64)) < 1e-5, "sky")
+    end subroutine runs_a_chain
 
     subroutine passes_instrument_arrays()
         type(wfpsf_instrument) :: instrument

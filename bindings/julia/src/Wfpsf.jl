@@ -33,6 +33,7 @@ export WfpsfError, options,
     IPCKernel, wfc3_kernel, wfc3_deviations, read_kernel, correction, flipped, compose,
     autocorrelation, taps, properties, transform, self_test, apply_ipc, apply_ipc!, correct_ipc!,
     covariance,
+    Chain, add!, steps, apply_chain!, add_noise!, sky_level, sky_background,
     Moments, adaptive_moments, unweighted_moments,
     encircled_energy, ee_radius, fwhm
 
@@ -48,6 +49,7 @@ include("image.jl")
 include("interleave.jl")
 include("psf.jl")
 include("ipc.jl")
+include("chain.jl")
 include("moments.jl")
 include("size.jl")
 

@@ -199,6 +199,9 @@ function apply_ipc(kernel::IPCKernel, image::Image; edge::Symbol = :zero, keywor
     return apply_ipc!(out, kernel, image; edge = edge, keywords...)
 end
 
+const CORRECT_OPTIONS =
+    (:ipc_form, :ipc_least_margin, :ipc_tolerance, :ipc_max_passes, :force, :threads)
+
 """
     correct_ipc!(out, kernel, image; edge = :zero, options...)
 
@@ -211,8 +214,7 @@ function correct_ipc!(out::Image, kernel::IPCKernel, image::Image; edge::Symbol 
                       keywords...)
     residual, noise = Ref{Float64}(), Ref{Float64}()
     passes, not_finite = Ref{Int64}(), Ref{Int64}()
-    with_options((:ipc_form, :ipc_least_margin, :ipc_tolerance, :ipc_max_passes, :force, :threads),
-                 keywords) do options
+    with_options(CORRECT_OPTIONS, keywords) do options
         check(LibWfpsf.wfpsf_ipc_correct(kernel, image, choose(EDGES, :edge, edge), options, out,
                                          residual, noise, passes, not_finite))
     end

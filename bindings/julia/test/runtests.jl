@@ -23,7 +23,7 @@ end
 
 @testset "Wfpsf" begin
     @testset "$subject" for subject in ("handle", "options", "instrument", "image", "interleave",
-                                        "psf", "ipc", "moments", "size")
+                                        "psf", "ipc", "chain", "moments", "size")
         include("$subject.jl")
     end
 end

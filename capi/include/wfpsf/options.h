@@ -69,7 +69,14 @@ enum { WFPSF_OPTION_REAL = 1, WFPSF_OPTION_INTEGER = 2 };
     X(SIZE_BANDWIDTH, 410, REAL, 0.25, 1e-3, 0.45,                                                 \
       "highest frequency in the image, cycles per pixel of the image")                             \
     X(FITS_OVERWRITE, 500, INTEGER, 0, 0, 1, "1: replace an existing file")                        \
-    X(THREADS, 600, INTEGER, 1, 1, 1024, "threads that a call may use, the caller's among them")
+    X(THREADS, 600, INTEGER, 1, 1, 1024, "threads that a call may use, the caller's among them")   \
+    X(SEED, 700, INTEGER, 0, 0, 9007199254740991, "seed of the random numbers")                    \
+    X(STREAM, 710, INTEGER, 0, 0, 4294967295, "stream of the seed, such as an exposure's number")  \
+    X(ORIGIN_X, 720, INTEGER, 0, -2147483648, 2147483647,                                          \
+      "column of the detector that an image's first pixel is in")                                  \
+    X(ORIGIN_Y, 730, INTEGER, 0, -2147483648, 2147483647,                                          \
+      "row of the detector that an image's first pixel is in")                                     \
+    X(NOISE, 740, INTEGER, 1, 0, 1, "0: a chain adds means alone, no Poisson and read noise")
 
 #define WFPSF_OPTION_ENUM(name, key, kind, standard, smallest, largest, text)                      \
     WFPSF_OPTION_##name = (key),

@@ -6,6 +6,7 @@
 #ifndef WFPSF_H
 #define WFPSF_H
 
+#include <wfpsf/chain.h>
 #include <wfpsf/image.h>
 #include <wfpsf/instrument.h>
 #include <wfpsf/ipc.h>
@@ -13,6 +14,7 @@
 #include <wfpsf/options.h>
 #include <wfpsf/psf.h>
 #include <wfpsf/size.h>
+#include <wfpsf/sky.h>
 #include <wfpsf/status.h>
 #include <wfpsf/version.h>
 

@@ -310,6 +310,20 @@ TEST(IpcConvolve, InPlaceAndOnManyThreadsGivesTheSameBits) {
     }
 }
 
+TEST(IpcConvolve, AWholeDetectorAndMoreKeepsItsCharge) {
+    constexpr int64_t n = 8192;
+    Plane<float> image(n, n);
+    for (int64_t i = 0; i < n; ++i)
+        image(i, (i * i) % n) = 1024;
+    convolve(IpcKernel::parametric(0.02, 0.002, 0.001), image.view(),
+             {.edge = Edge::wrap, .threads = 2}, image.view());
+    double sum = 0;
+    for (int64_t y = 0; y < n; ++y)
+        for (int64_t x = 0; x < n; ++x)
+            sum += static_cast<double>(image(x, y));
+    EXPECT_NEAR(sum / (1024.0 * n), 1, 1e-7);
+}
+
 TEST(IpcConvolve, HugeNegativeAndInfinitePixelsStayWhatTheyAre) {
     const IpcKernel kernel = IpcKernel::parametric(0.02, 0.002);
     Plane<float> in(9, 9), out(9, 9);
