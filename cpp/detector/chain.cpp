@@ -20,37 +20,37 @@ enum class Takes { numbers, kernel, map };
 
 struct Description {
     StepKind kind;
-    const char *name;
     Effect effect;
+    const char *name;
     Takes takes;
-    size_t parameters; // or any_count: at least one
     unsigned positive; // bit i: parameter i must be > 0
+    size_t parameters; // or any_count: at least one
 };
 
 constexpr Description descriptions[] = {
-    {StepKind::clip_negative, "clip_negative", Effect::none, Takes::numbers, 0, 0},
-    {StepKind::charge_diffusion, "charge_diffusion", Effect::charge_diffusion, Takes::numbers, 1,
+    {StepKind::clip_negative, Effect::none, "clip_negative", Takes::numbers, 0, 0},
+    {StepKind::charge_diffusion, Effect::charge_diffusion, "charge_diffusion", Takes::numbers, 1,
      1},
-    {StepKind::background, "background", Effect::background, Takes::numbers, 1, 0},
-    {StepKind::poisson_noise, "poisson_noise", Effect::poisson_noise, Takes::numbers, 0, 0},
-    {StepKind::quantisation, "quantisation", Effect::none, Takes::numbers, 1, 1},
-    {StepKind::reciprocity_failure, "reciprocity_failure", Effect::reciprocity_failure,
-     Takes::numbers, 3, 0b110},
-    {StepKind::dark_current, "dark_current", Effect::dark_current, Takes::numbers, 2, 0b10},
-    {StepKind::dark_current_map, "dark_current_map", Effect::dark_current, Takes::map, 1, 1},
-    {StepKind::persistence_linear, "persistence_linear", Effect::persistence, Takes::numbers,
-     any_count, 0},
-    {StepKind::persistence_fermi, "persistence_fermi", Effect::persistence, Takes::numbers, 7,
-     0b1100110},
-    {StepKind::nonlinearity, "nonlinearity", Effect::nonlinearity, Takes::numbers, any_count, 0},
-    {StepKind::nonlinearity_inverse, "nonlinearity_inverse", Effect::nonlinearity_correction,
-     Takes::numbers, any_count, 0},
-    {StepKind::capacitance_map, "capacitance_map", Effect::capacitance, Takes::map, 0, 0},
-    {StepKind::ipc, "ipc", Effect::ipc, Takes::kernel, 0, 0},
-    {StepKind::read_noise, "read_noise", Effect::read_noise, Takes::numbers, 1, 1},
-    {StepKind::saturation, "saturation", Effect::none, Takes::numbers, 1, 1},
-    {StepKind::gain, "gain", Effect::gain, Takes::numbers, 1, 1},
-    {StepKind::pixel_mask, "pixel_mask", Effect::none, Takes::map, 2, 0},
+    {StepKind::background, Effect::background, "background", Takes::numbers, 0, 1},
+    {StepKind::poisson_noise, Effect::poisson_noise, "poisson_noise", Takes::numbers, 0, 0},
+    {StepKind::quantisation, Effect::none, "quantisation", Takes::numbers, 1, 1},
+    {StepKind::reciprocity_failure, Effect::reciprocity_failure, "reciprocity_failure",
+     Takes::numbers, 0b110, 3},
+    {StepKind::dark_current, Effect::dark_current, "dark_current", Takes::numbers, 0b10, 2},
+    {StepKind::dark_current_map, Effect::dark_current, "dark_current_map", Takes::map, 1, 1},
+    {StepKind::persistence_linear, Effect::persistence, "persistence_linear", Takes::numbers, 0,
+     any_count},
+    {StepKind::persistence_fermi, Effect::persistence, "persistence_fermi", Takes::numbers,
+     0b1100110, 7},
+    {StepKind::nonlinearity, Effect::nonlinearity, "nonlinearity", Takes::numbers, 0, any_count},
+    {StepKind::nonlinearity_inverse, Effect::nonlinearity_correction, "nonlinearity_inverse",
+     Takes::numbers, 0, any_count},
+    {StepKind::capacitance_map, Effect::capacitance, "capacitance_map", Takes::map, 0, 0},
+    {StepKind::ipc, Effect::ipc, "ipc", Takes::kernel, 0, 0},
+    {StepKind::read_noise, Effect::read_noise, "read_noise", Takes::numbers, 1, 1},
+    {StepKind::saturation, Effect::none, "saturation", Takes::numbers, 1, 1},
+    {StepKind::gain, Effect::gain, "gain", Takes::numbers, 1, 1},
+    {StepKind::pixel_mask, Effect::none, "pixel_mask", Takes::map, 0, 2},
 };
 
 const Description &describe(StepKind kind) {
@@ -87,8 +87,8 @@ void check(const Description &d, Takes takes, std::span<const double> parameters
 std::vector<double> discrete_gaussian(double sigma) {
     const double t = sigma * sigma;
     std::vector<double> half;
-    for (double n = 0; n <= 500; ++n) {
-        half.push_back(std::exp(-t) * std::cyl_bessel_i(n, t));
+    for (int n = 0; n <= 500; ++n) {
+        half.push_back(std::exp(-t) * std::cyl_bessel_i(static_cast<double>(n), t));
         if (half.back() < 1e-17)
             break;
     }

@@ -36,10 +36,13 @@ class Uniform {
     size_t left_ = 0;
 };
 
-double poisson_by_inversion(double mean, Uniform &uniform) {
+double poisson_by_products(double mean, Uniform &uniform) {
+    const double least = std::exp(-mean);
     double product = uniform(), k = 0;
-    for (const double least = std::exp(-mean); product > least; product *= uniform())
+    while (product > least) {
+        product *= uniform();
         ++k;
+    }
     return k;
 }
 
@@ -48,8 +51,8 @@ double poisson_by_inversion(double mean, Uniform &uniform) {
 double stirling_error(double k) {
     if (k < 16) {
         double log_factorial = 0;
-        for (double i = 2; i <= k; ++i)
-            log_factorial += std::log(i);
+        for (int i = 2; i <= static_cast<int>(k); ++i)
+            log_factorial += std::log(static_cast<double>(i));
         return log_factorial - (k * std::log(k) - k + std::log(2 * std::numbers::pi * k) / 2);
     }
     const double square = k * k;
@@ -102,7 +105,7 @@ void draw_poisson(const RandomSource &source, int64_t x, int64_t y, int64_t coun
             continue;
         Uniform uniform(source, source.x0 + x + i, source.y0 + y);
         means[i] =
-            mean < 10 ? poisson_by_inversion(mean, uniform) : poisson_by_rejection(mean, uniform);
+            mean < 10 ? poisson_by_products(mean, uniform) : poisson_by_rejection(mean, uniform);
     }
 }
 

@@ -241,8 +241,8 @@ TEST(Sky, TablesAndThermalBackground) {
     for (const Row &row : Table("instrument/thermal_backgrounds.csv")) {
         const Instrument telescope = instrument(row.text("config"));
         double electrons = 0;
-        const wfpsf_status status = wfpsf_sky_background(
-            telescope.get(), row.text("band").c_str(), 90, 30, 10, 0, &electrons);
+        const wfpsf_status status = wfpsf_sky_background(telescope.get(), row.text("band").c_str(),
+                                                         90, 30, 10, 0, &electrons);
         if (status == WFPSF_OK) { // gratings and prism have no table of the sky
             EXPECT_NEAR(electrons, 10 * row.number("thermal_e_per_pix_per_s"), 1e-14);
         }

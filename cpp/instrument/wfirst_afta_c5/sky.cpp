@@ -1368,12 +1368,7 @@ constexpr double f184[] = {
 // clang-format on
 
 constexpr SkyCurve table[] = {
-    {"Z087", z087},
-    {"Y106", y106},
-    {"J129", j129},
-    {"W149", w149},
-    {"H158", h158},
-    {"F184", f184},
+    {"Z087", z087}, {"Y106", y106}, {"J129", j129}, {"W149", w149}, {"H158", h158}, {"F184", f184},
 };
 
 } // namespace
