@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// IPC over a whole detector, against a plain copy of the same pixels. Errors are against a long
-// double sum over a sample of pixels, in units of the largest pixel.
-#include "detector/ipc_convolve.hpp"
+// The detector over 4088^2 pixels. IPC against a plain copy, a naive loop and a convolution by FFT;
+// its corrections; noise against its closed form; a whole chain. Errors are in units of the largest
+// pixel unless they say otherwise; those of IPC are against a long double sum over a sample.
+#include "detector/default_chain.hpp"
+#include "detector/ipc_solve.hpp"
+#include "detector/noise.hpp"
 #include "harness.hpp"
+#include "numerics/plane_filter.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <complex>
+#include <cstdio>
 #include <cstring>
+#include <numbers>
 #include <random>
 
 namespace wfpsf::bench {
@@ -14,36 +21,177 @@ namespace wfpsf::bench {
 namespace {
 
 constexpr int64_t n = 4088;
+constexpr double full = 1e5;
 
-template <class T> Case ipc_case(const char *name, const IpcKernel &kernel, int64_t tap_step) {
-    return {name, "largest pixel error / largest pixel", 0, sizeof(T) == 4 ? 1e-7 : 1e-15, [=] {
-                Plane<T> in(n, n), out(n, n);
-                std::mt19937 random(1);
-                std::uniform_real_distribution<double> charge(0, 1e5);
+template <class T> Plane<T> charges() {
+    Plane<T> in(n, n);
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> charge(0, full);
+    for (int64_t y = 0; y < n; ++y)
+        for (int64_t x = 0; x < n; ++x)
+            in(x, y) = static_cast<T>(charge(random));
+    return in;
+}
+
+template <class T> void copy(const Plane<T> &from, Plane<T> &to) {
+    std::memcpy(to.view().data, from.view().data, sizeof(T) * static_cast<size_t>(n * n));
+}
+
+// As it is written down, border left out.
+template <class T> void naive(const IpcKernel &kernel, const Plane<T> &in, Plane<T> &out) {
+    for (int64_t y = 1; y < n - 1; ++y)
+        for (int64_t x = 1; x < n - 1; ++x) {
+            double sum = 0;
+            for (int64_t dy = -1; dy <= 1; ++dy)
+                for (int64_t dx = -1; dx <= 1; ++dx)
+                    sum += kernel(dx, dy) * static_cast<double>(in(x - dx, y - dy));
+            out(x, y) = static_cast<T>(sum);
+        }
+}
+
+// A kernel that is symmetric left-right and up-down.
+void by_fft(const IpcKernel &kernel, Plane<double> &image) {
+    const auto cosines = [](bool first_axis) {
+        std::vector<double> values = filter_frequencies(Continuation::periodic, n, first_axis);
+        for (double &value : values)
+            value = 2 * std::cos(2 * std::numbers::pi * value);
+        return values;
+    };
+    const std::vector<double> cx = cosines(true), cy = cosines(false);
+    filter_plane(image.view(), Continuation::periodic, [&](int64_t k, std::complex<double> *row) {
+        const double c = cy[static_cast<size_t>(k)];
+        for (size_t j = 0; j < cx.size(); ++j)
+            row[j] =
+                kernel(0, 0) + kernel(1, 0) * cx[j] + (kernel(0, 1) + kernel(1, 1) * cx[j]) * c;
+    });
+}
+
+template <class T>
+double sampled_error(const IpcKernel &kernel, int64_t tap_step, const Plane<T> &in,
+                     const Plane<T> &out) {
+    double largest = 0;
+    for (int64_t y = 0; y < n; y += 97)
+        for (int64_t x = 0; x < n; x += 89) {
+            long double sum = 0;
+            for (int64_t dy = -1; dy <= 1; ++dy)
+                for (int64_t dx = -1; dx <= 1; ++dx) {
+                    const int64_t i = x - tap_step * dx, j = y - tap_step * dy;
+                    if (i >= 0 && i < n && j >= 0 && j < n)
+                        sum += static_cast<long double>(kernel(dx, dy)) * in(i, j);
+                }
+            largest = std::max(largest, static_cast<double>(std::abs(sum - out(x, y))) / full);
+        }
+    return largest;
+}
+
+enum class Peer { copy, naive, fft };
+
+template <class T>
+Case ipc_case(const char *name, double target_time, const IpcKernel &kernel, Convolution how,
+              Peer peer = Peer::copy, bool in_place = false) {
+    return {name, "largest pixel error / largest pixel", target_time, sizeof(T) == 4 ? 1e-7 : 1e-15,
+            [=] {
+                const Plane<T> in = charges<T>();
+                Plane<T> out = in;
+                Measured m;
+                if (peer == Peer::copy) {
+                    m.baseline = "a plain copy";
+                    m.baseline_s = time([&] { copy(in, out); }).median_s;
+                } else if (peer == Peer::naive) {
+                    m.baseline = "a naive loop";
+                    m.baseline_s = time([&] { naive(kernel, in, out); }).median_s;
+                } else if constexpr (sizeof(T) == sizeof(double)) {
+                    m.baseline = "an FFT convolution";
+                    m.baseline_s = time([&] { by_fft(kernel, out); }).median_s;
+                }
+                m.timing = time([&] {
+                    convolve(kernel, in_place ? std::as_const(out).view() : in.view(), how,
+                             out.view());
+                });
+                copy(in, out);
+                convolve(kernel, in_place ? std::as_const(out).view() : in.view(), how, out.view());
+                m.error = sampled_error(kernel, how.tap_step, in, out);
+                return m;
+            }};
+}
+
+Case inverse_case(const char *name, double alpha, Edge edge) {
+    return {name, "largest pixel error / largest pixel", 1, 1e-12, [=] {
+                const IpcKernel kernel = IpcKernel::parametric(alpha, alpha / 10);
+                const Plane<double> in = charges<double>();
+                Plane<double> seen(n, n), found(n, n);
+                convolve(kernel, in.view(), {edge}, seen.view());
+                Measured m;
+                m.timing = time([&] {
+                    solve_ipc(kernel, std::as_const(seen).view(), {edge}, {}, found.view());
+                });
                 for (int64_t y = 0; y < n; ++y)
                     for (int64_t x = 0; x < n; ++x)
-                        in(x, y) = static_cast<T>(charge(random));
+                        m.error = std::max(m.error, std::abs(found(x, y) - in(x, y)) / full);
+                return m;
+            }};
+}
+
+Case neumann_case(double alpha, int64_t order) {
+    char name[80];
+    std::snprintf(name, sizeof name, "IPC correction of order %d, alpha = %.2f, 512^2",
+                  static_cast<int>(order), alpha);
+    return {name, "largest pixel error / largest pixel", 0, 0, [=] {
+                const IpcKernel kernel = IpcKernel::parametric(alpha, alpha / 10);
+                const IpcKernel correction = kernel.neumann_correction(order);
+                Plane<double> in(512, 512), seen(512, 512), found(512, 512);
+                in(200, 300) = 1; // a point has every frequency
+                convolve(kernel, std::as_const(in).view(), {Edge::wrap}, seen.view());
                 Measured m;
-                m.baseline = "a plain copy";
-                m.baseline_s = time([&] {
-                                   std::memcpy(out.view().data, in.view().data,
-                                               sizeof(T) * static_cast<size_t>(n * n));
-                               }).median_s;
                 m.timing = time([&] {
-                    convolve(kernel, std::as_const(in).view(), Edge::zero, 0, tap_step, out.view());
+                    convolve(correction, std::as_const(seen).view(), {Edge::wrap}, found.view());
                 });
-                for (int64_t y = 0; y < n; y += 97)
-                    for (int64_t x = 0; x < n; x += 89) {
-                        long double sum = 0;
-                        for (int64_t dy = -1; dy <= 1; ++dy)
-                            for (int64_t dx = -1; dx <= 1; ++dx) {
-                                const int64_t i = x - tap_step * dx, j = y - tap_step * dy;
-                                if (i >= 0 && i < n && j >= 0 && j < n)
-                                    sum += static_cast<long double>(kernel(dx, dy)) * in(i, j);
-                            }
-                        const auto error = static_cast<double>(std::abs(sum - out(x, y))) / 1e5;
-                        m.error = std::max(m.error, error);
-                    }
+                for (int64_t y = 0; y < 512; ++y)
+                    for (int64_t x = 0; x < 512; ++x)
+                        m.error = std::max(m.error, std::abs(found(x, y) - in(x, y)));
+                return m;
+            }};
+}
+
+// The sample covariance at the lags 0 and 1, in units of its own standard error.
+Case noise_case() {
+    return {"correlated noise, 2048^2", "covariance, in its standard errors", 0, 5, [] {
+                constexpr int64_t size = 2048;
+                const IpcKernel kernel = IpcKernel::parametric(0.02, 0.002);
+                const IpcKernel wanted = kernel.autocorrelation();
+                Plane<double> image(size, size);
+                Measured m;
+                m.timing = time([&] { add_noise(1, &kernel, {.seed = 1}, 1, image.view()); });
+                image = Plane<double>(size, size);
+                add_noise(1, &kernel, {.seed = 2}, 1, image.view());
+                for (const int64_t lag : {0, 1}) {
+                    double sum = 0;
+                    for (int64_t y = 0; y < size; ++y)
+                        for (int64_t x = 0; x + lag < size; ++x)
+                            sum += image(x, y) * image(x + lag, y);
+                    const auto count = static_cast<double>(size * (size - lag));
+                    const double error = std::sqrt(2 * wanted.sum_of_squares() / count);
+                    m.error = std::max(m.error, std::abs(sum / count - wanted(lag, 0)) / error);
+                }
+                return m;
+            }};
+}
+
+Case chain_case(const char *name, bool with_noise, int threads) {
+    return {name, "none", 0, 0, [=] {
+                Image image(PixelType::float32, n, n);
+                const Plane<float> in = charges<float>();
+                const View<float> pixels = std::get<View<float>>(image.pixels());
+                const Chain chain = default_chain(Instrument::get("roman-c9"), 139.8);
+                Measured m;
+                m.error = NAN;
+                m.baseline = "a plain copy";
+                const size_t bytes = sizeof(float) * static_cast<size_t>(n * n);
+                m.baseline_s =
+                    time([&] { std::memcpy(pixels.data, in.view().data, bytes); }).median_s;
+                m.timing = time([&] {
+                    chain.run({.with_noise = with_noise, .force = true, .threads = threads}, image);
+                });
                 return m;
             }};
 }
@@ -52,9 +200,24 @@ template <class T> Case ipc_case(const char *name, const IpcKernel &kernel, int6
 
 std::vector<Case> ipc_cases() {
     const IpcKernel kernel = IpcKernel::parametric(0.02, 0.002, 0);
-    return {ipc_case<float>("IPC 3x3 on 4088^2, float32", kernel, 1),
-            ipc_case<double>("IPC 3x3 on 4088^2, float64", kernel, 1),
-            ipc_case<double>("IPC 3x3 on 4088^2, float64, taps 32 apart", kernel, 32)};
+    std::vector<Case> cases{
+        ipc_case<float>("IPC 3x3 on 4088^2, float32", 0, kernel, {}),
+        ipc_case<float>("IPC 3x3 on 4088^2, float32, in place", 0, kernel, {}, Peer::copy, true),
+        ipc_case<double>("IPC 3x3 on 4088^2, float64", 0, kernel, {}),
+        ipc_case<double>("IPC 3x3 on 4088^2, float64, in place", 0, kernel, {}, Peer::copy, true),
+        ipc_case<double>("IPC 3x3 on 4088^2, float64, two threads", 0, kernel, {.threads = 2}),
+        ipc_case<float>("IPC 3x3 on 4088^2, float32", 0, kernel, {}, Peer::naive),
+        ipc_case<double>("IPC 3x3 on 4088^2, float64", 0, kernel, {}, Peer::fft),
+        ipc_case<double>("IPC 3x3 on 4088^2, float64, taps 32 apart", 0, kernel, {.tap_step = 32}),
+        inverse_case("exact IPC inverse on 4088^2, alpha = 0.02", 0.02, Edge::zero),
+        inverse_case("exact IPC inverse on 4088^2, alpha = 0.12, periodic", 0.12, Edge::wrap)};
+    for (const double alpha : {0.01, 0.02, 0.05})
+        for (const int64_t order : {1, 2, 4, 8})
+            cases.push_back(neumann_case(alpha, order));
+    cases.push_back(noise_case());
+    cases.push_back(chain_case("Roman's detector chain on 4088^2, float32", true, 1));
+    cases.push_back(chain_case("Roman's detector chain on 4088^2, float32, means", false, 1));
+    return cases;
 }
 
 } // namespace wfpsf::bench

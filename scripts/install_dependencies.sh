@@ -6,7 +6,7 @@ set -euo pipefail
 
 packages=(
     cmake ninja-build gcc g++ gfortran pkg-config binutils python3
-    libeigen3-dev libfftw3-dev libcfitsio-dev zlib1g-dev libgd-dev libgtest-dev
+    libeigen3-dev libfftw3-dev libcfitsio-dev zlib1g-dev librandom123-dev libgd-dev libgtest-dev
 )
 case "${1:-}" in
     --lint) packages+=(clang-format clang-tidy) ;;

@@ -2,6 +2,7 @@
 // What stands behind the opaque handles.
 #pragma once
 
+#include "detector/chain.hpp"
 #include "detector/ipc_kernel.hpp"
 #include "image/image.hpp"
 #include "instrument/instrument.hpp"
@@ -47,6 +48,10 @@ struct wfpsf_otf {
 struct wfpsf_ipc_kernel {
     wfpsf::IpcKernel kernel;
     wfpsf::Effect effect; // what its application is recorded as
+};
+
+struct wfpsf_chain {
+    wfpsf::Chain chain;
 };
 
 struct wfpsf_moments {

@@ -36,9 +36,6 @@ Plane<double> copy_of(const wfpsf_image &image) {
 
 namespace {
 
-constexpr int32_t all_effects =
-    WFPSF_EFFECT_PIXEL_RESPONSE | WFPSF_EFFECT_IPC | WFPSF_EFFECT_IPC_CORRECTION;
-
 int oversampling_of(int64_t oversampling) {
     if (oversampling < 1 || oversampling > std::numeric_limits<int>::max())
         fail(WFPSF_ERROR_RANGE, "oversampling = %lld: must be 1..2147483647",
@@ -185,7 +182,7 @@ wfpsf_status wfpsf_image_set_record(wfpsf_image *image, int64_t oversampling,
                  pixel_scale_arcsec);
         if (pixel_scale_arcsec < 0)
             fail(WFPSF_ERROR_RANGE, "pixel_scale_arcsec = %g: must be >= 0", pixel_scale_arcsec);
-        if (applied & ~all_effects)
+        if (static_cast<uint32_t>(applied) & ~all_effects)
             fail(WFPSF_ERROR_ARGUMENT, "applied = %d: must be a sum of WFPSF_EFFECT_*", applied);
         image->image.set_oversampling(samples);
         image->image.set_pixel_scale_arcsec(pixel_scale_arcsec);

@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "detector/ipc_convolve.hpp"
+#include "detector/ipc_solve.hpp"
 #include "funnel.hpp"
 #include "handles.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <memory>
+#include <utility>
 #include <variant>
 
 using namespace wfpsf;
@@ -13,6 +17,85 @@ namespace {
 KernelOptions kernel_options(const wfpsf_options *options) {
     return {.allow_negative = flag(options, WFPSF_OPTION_KERNEL_NEGATIVE),
             .normalise = flag(options, WFPSF_OPTION_KERNEL_NORMALISE)};
+}
+
+// The kernel as a convolution, in the form that is asked for.
+IpcKernel in_form(const wfpsf_ipc_kernel *kernel, const wfpsf_options *options) {
+    return flag(options, WFPSF_OPTION_IPC_FORM) ? kernel->kernel.flipped() : kernel->kernel;
+}
+
+Convolution convolution(const wfpsf_image *in, int32_t edge, const wfpsf_options *options) {
+    if (edge < WFPSF_EDGE_ZERO || edge > WFPSF_EDGE_VALID)
+        fail(WFPSF_ERROR_ARGUMENT, "edge = %d: must be one of WFPSF_EDGE_*, %d..%d", edge,
+             WFPSF_EDGE_ZERO, WFPSF_EDGE_VALID);
+    return {static_cast<Edge>(edge), option(options, WFPSF_OPTION_IPC_FILL),
+            in->image.oversampling(), static_cast<int>(option(options, WFPSF_OPTION_THREADS))};
+}
+
+// call(from, to) on the pixels of two images of one type.
+template <class Call> void with_pixels(const wfpsf_image *in, wfpsf_image *out, Call &&call) {
+    std::visit(
+        [&](auto from, auto to) {
+            if constexpr (std::is_same_v<decltype(from), View<const float>> ==
+                          std::is_same_v<decltype(to), View<float>>)
+                call(from, to);
+            else
+                fail(WFPSF_ERROR_TYPE, "out: must have the pixel type of in");
+        },
+        in->image.pixels(), out->image.pixels());
+}
+
+void copy_record(const wfpsf_image *from, wfpsf_image *to) {
+    to->image.set_oversampling(from->image.oversampling());
+    to->image.set_pixel_scale_arcsec(from->image.pixel_scale_arcsec());
+    to->image.set_applied(from->image.applied());
+}
+
+double property(const IpcKernel &kernel, int32_t key) {
+    switch (key) {
+    case WFPSF_KERNEL_SUM:
+        return kernel.sum();
+    case WFPSF_KERNEL_CENTROID_X:
+        return kernel.moments().x;
+    case WFPSF_KERNEL_CENTROID_Y:
+        return kernel.moments().y;
+    case WFPSF_KERNEL_MXX:
+        return kernel.moments().xx;
+    case WFPSF_KERNEL_MXY:
+        return kernel.moments().xy;
+    case WFPSF_KERNEL_MYY:
+        return kernel.moments().yy;
+    case WFPSF_KERNEL_LEFT_RIGHT:
+        return kernel.asymmetry().left_right;
+    case WFPSF_KERNEL_UP_DOWN:
+        return kernel.asymmetry().up_down;
+    case WFPSF_KERNEL_HALF_TURN:
+        return kernel.asymmetry().half_turn;
+    case WFPSF_KERNEL_TRANSPOSED:
+        return kernel.asymmetry().transposed;
+    case WFPSF_KERNEL_MARGIN:
+        return kernel.margin().value;
+    case WFPSF_KERNEL_MARGIN_FREQUENCY_X:
+        return kernel.margin().frequency_x;
+    case WFPSF_KERNEL_MARGIN_FREQUENCY_Y:
+        return kernel.margin().frequency_y;
+    case WFPSF_KERNEL_VARIANCE_RATIO:
+        return kernel.sum_of_squares();
+    // The photon transfer takes var / mean for the gain: IPC leaves the mean and shrinks the
+    // variance. Electrons are then counted too many by as much.
+    case WFPSF_KERNEL_CONVERSION_GAIN_BIAS:
+        return kernel.sum_of_squares() - 1;
+    case WFPSF_KERNEL_QUANTUM_EFFICIENCY_BIAS:
+        return 1 / kernel.sum_of_squares() - 1;
+    case WFPSF_KERNEL_INVERSE_NOISE:
+        return inverse_noise_amplification(kernel);
+    default:
+        fail(WFPSF_ERROR_UNKNOWN_NAME, "key = %d: kernels have no property of that key", key);
+    }
+}
+
+Effect both(Effect first, Effect second) {
+    return static_cast<Effect>(static_cast<uint32_t>(first) | static_cast<uint32_t>(second));
 }
 
 } // namespace
@@ -81,6 +164,68 @@ wfpsf_status wfpsf_ipc_kernel_create_flipped(const wfpsf_ipc_kernel *kernel,
     });
 }
 
+wfpsf_status wfpsf_ipc_kernel_read_fits(const char *path, const char *hdu,
+                                        const wfpsf_options *options, wfpsf_ipc_kernel **out) {
+    return guarded([&] {
+        require_pointer(out, "out");
+        *out = nullptr;
+        wfpsf_image *image = nullptr;
+        const wfpsf_status status = wfpsf_image_read_fits(path, hdu, WFPSF_FLOAT64, &image);
+        const std::unique_ptr<wfpsf_image, decltype(&wfpsf_image_destroy)> owner(
+            image, wfpsf_image_destroy);
+        if (status != WFPSF_OK)
+            return status; // its line is there already
+        const auto taps = std::get<View<const double>>(std::as_const(image->image).pixels());
+        *out =
+            new wfpsf_ipc_kernel{IpcKernel::from_table(taps, kernel_options(options)), Effect::ipc};
+        return status;
+    });
+}
+
+wfpsf_status wfpsf_ipc_kernel_create_composed(const wfpsf_ipc_kernel *first,
+                                              const wfpsf_ipc_kernel *second,
+                                              wfpsf_ipc_kernel **out) {
+    return guarded([&] {
+        require_pointer(out, "out");
+        *out = nullptr;
+        require_pointer(first, "first");
+        require_pointer(second, "second");
+        *out = new wfpsf_ipc_kernel{second->kernel.composed(first->kernel),
+                                    both(first->effect, second->effect)};
+    });
+}
+
+wfpsf_status wfpsf_ipc_kernel_create_neumann(const wfpsf_ipc_kernel *kernel, int64_t order,
+                                             wfpsf_ipc_kernel **out) {
+    return guarded([&] {
+        require_pointer(out, "out");
+        *out = nullptr;
+        require_pointer(kernel, "kernel");
+        *out =
+            new wfpsf_ipc_kernel{kernel->kernel.neumann_correction(order), Effect::ipc_correction};
+    });
+}
+
+wfpsf_status wfpsf_ipc_kernel_create_autocorrelation(const wfpsf_ipc_kernel *kernel,
+                                                     wfpsf_ipc_kernel **out) {
+    return guarded([&] {
+        require_pointer(out, "out");
+        *out = nullptr;
+        require_pointer(kernel, "kernel");
+        *out = new wfpsf_ipc_kernel{kernel->kernel.autocorrelation(), kernel->effect};
+    });
+}
+
+wfpsf_status wfpsf_ipc_wfc3_deviations(int64_t capacity, double *deviations) {
+    return guarded([&] {
+        require_pointer(deviations, "deviations");
+        if (capacity < 9)
+            fail(WFPSF_ERROR_SIZE, "capacity = %lld: must be at least 9",
+                 static_cast<long long>(capacity));
+        std::ranges::copy(wfc3_uncertainties(), deviations);
+    });
+}
+
 void wfpsf_ipc_kernel_destroy(wfpsf_ipc_kernel *kernel) {
     delete kernel;
 }
@@ -106,29 +251,110 @@ wfpsf_status wfpsf_ipc_kernel_taps(const wfpsf_ipc_kernel *kernel, int64_t capac
     });
 }
 
+wfpsf_status wfpsf_ipc_kernel_get(const wfpsf_ipc_kernel *kernel, int32_t key, double *value) {
+    return guarded([&] {
+        require_pointer(kernel, "kernel");
+        require_pointer(value, "value");
+        *value = property(kernel->kernel, key);
+    });
+}
+
+wfpsf_status wfpsf_ipc_kernel_transform(const wfpsf_ipc_kernel *kernel, double frequency_x,
+                                        double frequency_y, double *real_part,
+                                        double *imaginary_part) {
+    return guarded([&] {
+        require_pointer(kernel, "kernel");
+        require_pointer(real_part, "real_part");
+        require_pointer(imaginary_part, "imaginary_part");
+        require_finite(frequency_x, "frequency_x");
+        require_finite(frequency_y, "frequency_y");
+        const std::complex<double> value = kernel->kernel.transform(frequency_x, frequency_y);
+        *real_part = value.real();
+        *imaginary_part = value.imag();
+    });
+}
+
 wfpsf_status wfpsf_ipc_apply(const wfpsf_ipc_kernel *kernel, const wfpsf_image *in, int32_t edge,
                              const wfpsf_options *options, wfpsf_image *out) {
     return guarded([&] {
         require_pointer(kernel, "kernel");
         require_pointer(in, "in");
         require_pointer(out, "out");
-        if (edge < WFPSF_EDGE_ZERO || edge > WFPSF_EDGE_VALID)
-            fail(WFPSF_ERROR_ARGUMENT, "edge = %d: must be one of WFPSF_EDGE_*, %d..%d", edge,
-                 WFPSF_EDGE_ZERO, WFPSF_EDGE_VALID);
+        const Convolution how = convolution(in, edge, options);
         in->image.require_not_applied(kernel->effect, flag(options, WFPSF_OPTION_FORCE));
-        std::visit(
-            [&](auto from, auto to) {
-                if constexpr (std::is_same_v<decltype(from), View<const float>> ==
-                              std::is_same_v<decltype(to), View<float>>)
-                    convolve(kernel->kernel, from, static_cast<Edge>(edge),
-                             option(options, WFPSF_OPTION_IPC_FILL), in->image.oversampling(), to);
-                else
-                    fail(WFPSF_ERROR_TYPE, "out: must have the pixel type of in");
-            },
-            in->image.pixels(), out->image.pixels());
-        out->image.set_oversampling(in->image.oversampling());
-        out->image.set_pixel_scale_arcsec(in->image.pixel_scale_arcsec());
-        out->image.set_applied(in->image.applied());
+        const IpcKernel applied = in_form(kernel, options);
+        with_pixels(in, out, [&](auto from, auto to) { convolve(applied, from, how, to); });
+        copy_record(in, out);
         out->image.record_applied(kernel->effect);
+    });
+}
+
+wfpsf_status wfpsf_ipc_kernel_self_test(const wfpsf_ipc_kernel *kernel,
+                                        const wfpsf_options *options, int64_t capacity,
+                                        double *response) {
+    return guarded([&] {
+        require_pointer(kernel, "kernel");
+        require_pointer(response, "response");
+        const int64_t nx = kernel->kernel.nx(), ny = kernel->kernel.ny();
+        if (capacity < nx * ny)
+            fail(WFPSF_ERROR_SIZE, "capacity = %lld: must be at least %lld",
+                 static_cast<long long>(capacity), static_cast<long long>(nx * ny));
+        Plane<double> charge(nx, ny);
+        charge(nx / 2, ny / 2) = 1;
+        convolve(in_form(kernel, options), charge.view(), {}, {response, nx, ny, 1, nx});
+    });
+}
+
+wfpsf_status wfpsf_ipc_correct(const wfpsf_ipc_kernel *kernel, const wfpsf_image *in, int32_t edge,
+                               const wfpsf_options *options, wfpsf_image *out, double *residual,
+                               double *noise_amplification, int64_t *passes, int64_t *not_finite) {
+    return guarded([&] {
+        require_pointer(kernel, "kernel");
+        require_pointer(in, "in");
+        require_pointer(out, "out");
+        const Convolution how = convolution(in, edge, options);
+        in->image.require_not_applied(Effect::ipc_correction, flag(options, WFPSF_OPTION_FORCE));
+        const SolveLimits limits{
+            .least_margin = option(options, WFPSF_OPTION_IPC_LEAST_MARGIN),
+            .tolerance = option(options, WFPSF_OPTION_IPC_TOLERANCE),
+            .most_passes = static_cast<int64_t>(option(options, WFPSF_OPTION_IPC_MAX_PASSES))};
+        const IpcKernel applied = in_form(kernel, options);
+        Solution solution;
+        with_pixels(in, out, [&](auto from, auto to) {
+            solution = solve_ipc(applied, from, how, limits, to);
+        });
+        copy_record(in, out);
+        out->image.record_applied(Effect::ipc_correction);
+        if (residual)
+            *residual = solution.residual;
+        if (noise_amplification)
+            *noise_amplification = solution.noise_amplification;
+        if (passes)
+            *passes = solution.passes;
+        if (not_finite)
+            *not_finite = solution.not_finite;
+        if (solution.converged)
+            return wfpsf_status{WFPSF_OK};
+        char line[128];
+        std::snprintf(line, sizeof line, "residual = %.3g after %lld passes: IPC_TOLERANCE is %g",
+                      solution.residual, static_cast<long long>(solution.passes), limits.tolerance);
+        return record_error(WFPSF_WARNING_NOT_CONVERGED, line);
+    });
+}
+
+wfpsf_status wfpsf_ipc_covariance(const wfpsf_ipc_kernel *kernel, const wfpsf_image *variance,
+                                  int64_t lag_x, int64_t lag_y, int32_t edge,
+                                  const wfpsf_options *options, wfpsf_image *out) {
+    return guarded([&] {
+        require_pointer(kernel, "kernel");
+        require_pointer(variance, "variance");
+        require_pointer(out, "out");
+        if (edge != WFPSF_EDGE_ZERO && edge != WFPSF_EDGE_WRAP)
+            fail(WFPSF_ERROR_ARGUMENT, "edge = %d: must be WFPSF_EDGE_ZERO or _WRAP", edge);
+        const Convolution how = convolution(variance, edge, options);
+        const Plane<double> products = kernel->kernel.products(lag_x, lag_y);
+        with_pixels(variance, out,
+                    [&](auto from, auto to) { convolve(products.view(), from, how, to); });
+        copy_record(variance, out);
     });
 }

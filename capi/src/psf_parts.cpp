@@ -91,8 +91,11 @@ wfpsf_status certify(double estimate, double eps) {
 }
 
 void require_light(double pixel_scale_arcsec, const Image &image, const wfpsf_options *options) {
-    for (const Effect later : {Effect::ipc, Effect::ipc_correction})
-        image.require_not_applied(later, flag(options, WFPSF_OPTION_FORCE));
+    for (uint32_t bit = 1; bit <= all_effects; bit <<= 1) {
+        const auto effect = static_cast<Effect>(bit);
+        if (effect != Effect::pixel_response && effect != Effect::background)
+            image.require_not_applied(effect, flag(options, WFPSF_OPTION_FORCE));
+    }
     require_scale(pixel_scale_arcsec, image, "image");
 }
 

@@ -19,16 +19,42 @@ enum class Edge : int32_t {
     valid = 5,     // there are no border pixels: out is smaller by the reach on each side, or empty
 };
 
+struct Convolution {
+    Edge edge = Edge::zero;
+    double fill = 0;      // of Edge::fill alone; may be NaN
+    int64_t tap_step = 1; // samples between taps
+    int threads = 1;      // they share the rows; the bits are the same for any number
+};
+
+// `taps` is a table of odd sizes, its middle K(0, 0); it need not sum to 1.
+//
 // Taps stand tap_step samples apart: 1 on a native image, N on one that samples the native pixel N
 // times along each axis. If both its sizes are multiples of N, the result equals the interleave
 // (Eq. 28 of the paper) of its N^2 native images with IPC, for every Edge.
 //
-// Any strides; in and out must not share memory. Sums are double. Taps of zero are skipped, so that
-// a NaN or an infinity spreads only to pixels that it couples to. `fill` is used by Edge::fill
-// alone, and may be NaN.
-void convolve(const IpcKernel &kernel, View<const float> in, Edge edge, double fill,
-              int64_t tap_step, View<float> out);
-void convolve(const IpcKernel &kernel, View<const double> in, Edge edge, double fill,
-              int64_t tap_step, View<double> out);
+// Any strides; out may be in itself, else they must not share memory. Sums are double. Taps of zero
+// are skipped, so that a NaN or an infinity spreads only to pixels that it couples to.
+void convolve(View<const double> taps, View<const float> in, const Convolution &how,
+              View<float> out);
+void convolve(View<const double> taps, View<const double> in, const Convolution &how,
+              View<double> out);
+
+// out += weight * addend, in the same pass over memory. addend has out's size and does not share
+// memory with it; edges zero, replicate and wrap.
+struct Addend {
+    View<const double> image;
+    double weight;
+};
+void convolve_and_add(View<const double> taps, View<const double> in, const Convolution &how,
+                      const Addend &addend, View<double> out);
+
+inline void convolve(const IpcKernel &kernel, View<const float> in, const Convolution &how,
+                     View<float> out) {
+    convolve(kernel.table(), in, how, out);
+}
+inline void convolve(const IpcKernel &kernel, View<const double> in, const Convolution &how,
+                     View<double> out) {
+    convolve(kernel.table(), in, how, out);
+}
 
 } // namespace wfpsf

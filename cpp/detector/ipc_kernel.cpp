@@ -2,8 +2,12 @@
 #include "detector/ipc_kernel.hpp"
 
 #include "error/error.hpp"
+#include "numerics/fft.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <vector>
 
 namespace wfpsf {
 
@@ -56,6 +60,14 @@ IpcKernel IpcKernel::wfc3() {
     return from_table({lowest_row_first, 3, 3, 1, 3}, {.normalise = true});
 }
 
+std::array<double, 9> wfc3_uncertainties() {
+    std::array<double, 9> lowest_row_first{0.0006, 0.0010, 0.0006, 0.0014, 0.0045,
+                                           0.0011, 0.0006, 0.0009, 0.0006};
+    for (double &deviation : lowest_row_first)
+        deviation /= 0.9985;
+    return lowest_row_first;
+}
+
 IpcKernel IpcKernel::from_table(View<const double> table, KernelOptions options) {
     for (int64_t n : {table.nx, table.ny})
         if (n < 1 || n > max_kernel_size || n % 2 == 0)
@@ -99,6 +111,57 @@ IpcKernel IpcKernel::first_order_correction() const {
     return result;
 }
 
+IpcKernel IpcKernel::neumann_correction(int64_t order) const {
+    if (order < 0)
+        fail(WFPSF_ERROR_RANGE, "order = %lld: must be at least 0", static_cast<long long>(order));
+    // Horner: 1 + (1 - K)(1 + (1 - K)(...)).
+    IpcKernel result{Plane<double>(1, 1)};
+    result.taps_(0, 0) = 1;
+    for (int64_t k = 0; k < order; ++k) {
+        IpcKernel longer = composed(result);
+        for (int64_t y = 0; y < longer.ny(); ++y)
+            for (int64_t x = 0; x < longer.nx(); ++x)
+                longer.taps_(x, y) = 0 - longer.taps_(x, y);
+        for_each_tap(result, [&](int64_t dx, int64_t dy, double tap) {
+            longer.taps_(dx + longer.reach_x(), dy + longer.reach_y()) += tap;
+        });
+        longer.taps_(longer.reach_x(), longer.reach_y()) += 1;
+        result = std::move(longer);
+    }
+    return result;
+}
+
+IpcKernel IpcKernel::composed(const IpcKernel &other) const {
+    const int64_t size_x = nx() + other.nx() - 1, size_y = ny() + other.ny() - 1;
+    if (std::max(size_x, size_y) > max_kernel_size)
+        fail(WFPSF_ERROR_SIZE,
+             "the kernel would have %lld x %lld taps: must be at most %lld along an axis",
+             static_cast<long long>(size_x), static_cast<long long>(size_y),
+             static_cast<long long>(max_kernel_size));
+    IpcKernel result{Plane<double>(size_x, size_y)};
+    for_each_tap(other, [&](int64_t dx, int64_t dy, double tap) {
+        const int64_t x0 = dx + other.reach_x(), y0 = dy + other.reach_y();
+        for (int64_t y = 0; y < ny(); ++y)
+            for (int64_t x = 0; x < nx(); ++x)
+                result.taps_(x0 + x, y0 + y) += tap * taps_(x, y);
+    });
+    return result;
+}
+
+IpcKernel IpcKernel::autocorrelation() const {
+    return composed(flipped());
+}
+
+Plane<double> IpcKernel::products(int64_t lag_x, int64_t lag_y) const {
+    Plane<double> result(nx(), ny());
+    const auto has = [](int64_t i, int64_t lag, int64_t n) { return lag >= -i && lag < n - i; };
+    for (int64_t y = 0; y < ny(); ++y)
+        for (int64_t x = 0; x < nx(); ++x)
+            if (has(x, lag_x, nx()) && has(y, lag_y, ny()))
+                result(x, y) = taps_(x, y) * taps_(x + lag_x, y + lag_y);
+    return result;
+}
+
 IpcKernel IpcKernel::flipped() const {
     IpcKernel result{Plane<double>(nx(), ny())};
     for (int64_t y = 0; y < ny(); ++y)
@@ -111,6 +174,106 @@ double IpcKernel::sum() const {
     double sum = 0;
     for_each_tap(*this, [&](int64_t, int64_t, double tap) { sum += tap; });
     return sum;
+}
+
+double IpcKernel::sum_of_squares() const {
+    double sum = 0;
+    for_each_tap(*this, [&](int64_t, int64_t, double tap) { sum += tap * tap; });
+    return sum;
+}
+
+KernelAsymmetry IpcKernel::asymmetry() const {
+    KernelAsymmetry a{};
+    a.transposed = nx() == ny() ? 0 : HUGE_VAL;
+    for_each_tap(*this, [&](int64_t dx, int64_t dy, double tap) {
+        const auto compare = [&](double &largest, int64_t to_x, int64_t to_y) {
+            largest = std::max(largest, std::fabs(tap - (*this)(to_x, to_y)));
+        };
+        compare(a.left_right, -dx, dy);
+        compare(a.up_down, dx, -dy);
+        compare(a.half_turn, -dx, -dy);
+        if (nx() == ny())
+            compare(a.transposed, dy, dx);
+    });
+    return a;
+}
+
+std::complex<double> IpcKernel::transform(double frequency_x, double frequency_y) const {
+    const auto turns = [](int64_t n, double frequency) {
+        const int64_t reach = n / 2;
+        std::vector<std::complex<double>> phases(static_cast<size_t>(n));
+        for (int64_t d = -reach; d <= reach; ++d) {
+            const double cycles = std::remainder(frequency * static_cast<double>(d), 1.0);
+            phases[static_cast<size_t>(d + reach)] =
+                std::polar(1.0, -2 * std::numbers::pi * cycles);
+        }
+        return phases;
+    };
+    const auto along_x = turns(nx(), frequency_x), along_y = turns(ny(), frequency_y);
+    std::complex<double> sum = 0;
+    for (int64_t y = 0; y < ny(); ++y) {
+        std::complex<double> row = 0;
+        for (int64_t x = 0; x < nx(); ++x)
+            row += taps_(x, y) * along_x[static_cast<size_t>(x)];
+        sum += row * along_y[static_cast<size_t>(y)];
+    }
+    return sum;
+}
+
+namespace {
+
+// Over the frequencies (j / n, k / n). |K^| is even in both together: half of the plane will do.
+StabilityMargin smallest_on_grid(const IpcKernel &kernel, int64_t n) {
+    const BackwardFft fft(n);
+    const auto at = [n](int64_t d) { return static_cast<size_t>((d % n + n) % n); };
+    // Rows first; the signs of the exponents do not matter to an absolute value.
+    std::vector<std::vector<std::complex<double>>> rows(static_cast<size_t>(kernel.ny()));
+    for (int64_t y = 0; y < kernel.ny(); ++y) {
+        auto &row = rows[static_cast<size_t>(y)];
+        row.resize(static_cast<size_t>(n));
+        for (int64_t dx = -kernel.reach_x(); dx <= kernel.reach_x(); ++dx)
+            row[at(dx)] = kernel(dx, y - kernel.reach_y());
+        fft.run(row.data());
+    }
+    StabilityMargin smallest{HUGE_VAL, 0, 0};
+    std::vector<std::complex<double>> column(static_cast<size_t>(n));
+    for (int64_t j = 0; j <= n / 2; ++j) {
+        std::ranges::fill(column, 0);
+        for (int64_t y = 0; y < kernel.ny(); ++y)
+            column[at(y - kernel.reach_y())] = rows[static_cast<size_t>(y)][static_cast<size_t>(j)];
+        fft.run(column.data());
+        for (int64_t k = 0; k < n; ++k) {
+            const double value = std::abs(column[static_cast<size_t>(k)]);
+            const auto fy = static_cast<double>(k) / static_cast<double>(n);
+            if (value < smallest.value)
+                smallest = {value, static_cast<double>(j) / static_cast<double>(n),
+                            fy > 0.5 ? fy - 1 : fy};
+        }
+    }
+    return smallest;
+}
+
+} // namespace
+
+StabilityMargin IpcKernel::margin() const {
+    const int64_t n = 2 * good_fft_length(std::max<int64_t>(16, 2 * std::max(nx(), ny())));
+    StabilityMargin best = smallest_on_grid(*this, n);
+    best.value = std::abs(transform(best.frequency_x, best.frequency_y));
+    // Steps along the axes and diagonals, halved when none leads down.
+    for (double step = 0.5 / static_cast<double>(n); step > 1e-9;) {
+        const StabilityMargin start = best;
+        for (const int sx : {-1, 0, 1})
+            for (const int sy : {-1, 0, 1}) {
+                const double fx = std::clamp(start.frequency_x + sx * step, -0.5, 0.5);
+                const double fy = std::clamp(start.frequency_y + sy * step, -0.5, 0.5);
+                const double value = std::abs(transform(fx, fy));
+                if (value < best.value)
+                    best = {value, fx, fy};
+            }
+        if (!(best.value < start.value))
+            step /= 2;
+    }
+    return best;
 }
 
 KernelMoments IpcKernel::moments() const {

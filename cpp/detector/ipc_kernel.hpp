@@ -7,6 +7,8 @@
 
 #include "image/view.hpp"
 
+#include <array>
+#include <complex>
 #include <utility>
 
 namespace wfpsf {
@@ -20,11 +22,28 @@ struct KernelOptions {
     bool normalise = false;      // divide by the sum, which must be positive
 };
 
+// Standard deviations of the taps measured for WFC3 (Eq. 11), as wfc3() has them: its order, its
+// division.
+std::array<double, 9> wfc3_uncertainties();
+
 // Centroid of the taps and second moments about it. Both add to the unweighted moments of any
 // image that the kernel is applied to.
 struct KernelMoments {
     double x, y;
     double xx, xy, yy;
+};
+
+// How far a kernel is from symmetric: the largest difference between a tap and its image.
+struct KernelAsymmetry {
+    double left_right, up_down, half_turn;
+    double transposed; // infinite if the kernel is not square
+};
+
+// min |K^| over all frequencies, where it is met. Dividing by K^ amplifies noise by 1 / value
+// there.
+struct StabilityMargin {
+    double value;
+    double frequency_x, frequency_y; // cycles per pixel, -1/2..1/2
 };
 
 class IpcKernel {
@@ -47,6 +66,21 @@ class IpcKernel {
     // 2 delta - K: undoes K to first order in the couplings (Eq. 12, for any kernel).
     IpcKernel first_order_correction() const;
 
+    // The sum of the first order + 1 terms of Neumann's series, (delta - K)^k: it leaves an error
+    // of order + 1 in the couplings. Order 0 is delta, order 1 the first-order correction.
+    IpcKernel neumann_correction(int64_t order) const;
+
+    // This kernel applied after another.
+    IpcKernel composed(const IpcKernel &other) const;
+
+    // A(l) = sum over d of K(d) K(d + l): white noise of variance 1 has this covariance at lag l
+    // after the kernel. A(0) is the share of the variance that stays in a pixel.
+    IpcKernel autocorrelation() const;
+
+    // K(d) K(d + lag) at the place of K(d); 0 where there is no such tap. As a convolution it turns
+    // the variances of independent pixels into the covariances of pixels `lag` apart.
+    Plane<double> products(int64_t lag_x, int64_t lag_y) const;
+
     // K(-d): as a convolution it does what K does as a correlation, and the other way round.
     IpcKernel flipped() const;
 
@@ -59,8 +93,18 @@ class IpcKernel {
         return taps_(dx + reach_x(), dy + reach_y());
     }
 
+    View<const double> table() const { return taps_.view(); }
+
     double sum() const;
+    double sum_of_squares() const;
     KernelMoments moments() const;
+    KernelAsymmetry asymmetry() const;
+
+    // K^(k) = sum over d of K(d) exp(-2 pi i k . d), k in cycles per pixel.
+    std::complex<double> transform(double frequency_x, double frequency_y) const;
+
+    // From a grid of frequencies finer than the kernel's bandwidth, polished between them.
+    StabilityMargin margin() const;
 
   private:
     explicit IpcKernel(Plane<double> taps) : taps_(std::move(taps)) {}

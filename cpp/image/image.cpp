@@ -78,8 +78,32 @@ const char *effect_name(Effect effect) {
         return "interpixel capacitance";
     case Effect::ipc_correction:
         return "correction of interpixel capacitance";
+    case Effect::charge_diffusion:
+        return "charge diffusion";
+    case Effect::background:
+        return "background";
+    case Effect::poisson_noise:
+        return "Poisson noise";
+    case Effect::reciprocity_failure:
+        return "reciprocity failure";
+    case Effect::dark_current:
+        return "dark current";
+    case Effect::persistence:
+        return "persistence";
+    case Effect::nonlinearity:
+        return "nonlinearity";
+    case Effect::nonlinearity_correction:
+        return "correction of nonlinearity";
+    case Effect::capacitance:
+        return "capacitance of the pixels";
+    case Effect::read_noise:
+        return "read noise";
+    case Effect::gain:
+        return "gain";
+    case Effect::none:
+        break;
     }
-    return "unknown effect";
+    return "one of several effects at once";
 }
 
 Image::Image(PixelType type, int64_t nx, int64_t ny) {

@@ -15,7 +15,24 @@ namespace wfpsf {
 enum class PixelType { float32, float64 };
 
 // One bit each: an image's record is their sum.
-enum class Effect : uint32_t { pixel_response = 1, ipc = 2, ipc_correction = 4 };
+enum class Effect : uint32_t {
+    none = 0,
+    pixel_response = 1,
+    ipc = 1 << 1,
+    ipc_correction = 1 << 2,
+    charge_diffusion = 1 << 3,
+    background = 1 << 4,
+    poisson_noise = 1 << 5,
+    reciprocity_failure = 1 << 6,
+    dark_current = 1 << 7,
+    persistence = 1 << 8,
+    nonlinearity = 1 << 9,
+    nonlinearity_correction = 1 << 10,
+    capacitance = 1 << 11,
+    read_noise = 1 << 12,
+    gain = 1 << 13,
+};
+inline constexpr uint32_t all_effects = (1 << 14) - 1;
 
 const char *effect_name(Effect effect);
 

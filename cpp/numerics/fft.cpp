@@ -3,7 +3,6 @@
 
 #include <array>
 #include <map>
-#include <mutex>
 #include <new>
 
 #include <fftw3.h>
@@ -25,6 +24,11 @@ int64_t good_fft_length(int64_t n) {
     }
 }
 
+std::mutex &fftw_planner_lock() {
+    static auto &lock = *new std::mutex; // outlives every thread
+    return lock;
+}
+
 namespace {
 
 // Unaligned, so that any buffer will do; an estimate does not touch the data.
@@ -33,10 +37,9 @@ constexpr unsigned flags = FFTW_ESTIMATE | FFTW_UNALIGNED;
 using Shape = std::array<int64_t, 3>; // dimensions; n and batch, or nx and ny
 
 template <class Make> fftw_plan plan_of(const Shape &shape, Make make) {
-    static std::mutex lock;
     // For the life of the process: never destroyed, so that threads may outlive main().
     static auto &plans = *new std::map<Shape, fftw_plan>;
-    const std::lock_guard guard(lock);
+    const std::lock_guard guard(fftw_planner_lock());
     fftw_plan &plan = plans[shape];
     if (!plan)
         plan = make();

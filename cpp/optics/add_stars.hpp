@@ -3,15 +3,13 @@
 #pragma once
 
 #include "image/view.hpp"
+#include "numerics/bands.hpp"
 #include "optics/field.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <exception>
 #include <span>
-#include <thread>
-#include <vector>
 
 namespace wfpsf {
 
@@ -48,26 +46,11 @@ void add_stars_to_rows(std::span<const Star> stars, double radius, int64_t overs
     }
 }
 
-// work(first, last) for bands of an image's rows, one a thread; rethrows what one of them throws.
+// work(first, last) for bands of an image's rows, one a thread.
 template <class Work> void on_bands_of_rows(int64_t rows, int threads, const Work &work) {
     const auto bands = std::clamp<int64_t>(threads, 1, std::max<int64_t>(rows, 1));
-    std::vector<std::exception_ptr> failures(static_cast<size_t>(bands));
-    const auto guarded = [&](int64_t band) noexcept {
-        try {
-            work(rows * band / bands, rows * (band + 1) / bands - 1);
-        } catch (...) {
-            failures[static_cast<size_t>(band)] = std::current_exception();
-        }
-    };
-    {
-        std::vector<std::jthread> others;
-        for (int64_t band = 1; band < bands; ++band)
-            others.emplace_back(guarded, band);
-        guarded(0);
-    }
-    for (const std::exception_ptr &failure : failures)
-        if (failure)
-            std::rethrow_exception(failure);
+    for_each_band(bands,
+                  [&](int64_t band) { work(rows * band / bands, rows * (band + 1) / bands - 1); });
 }
 
 } // namespace wfpsf

@@ -122,7 +122,8 @@ static void test_record(void) {
                 wfpsf_image_set_record(image, 1, NAN, 0));
     CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "pixel_scale_arcsec = inf",
                 wfpsf_image_set_record(image, 1, HUGE_VAL, 0));
-    CHECK_FAILS(WFPSF_ERROR_ARGUMENT, "applied = 8", wfpsf_image_set_record(image, 1, 1, 8));
+    CHECK_FAILS(WFPSF_ERROR_ARGUMENT, "applied = 16384",
+                wfpsf_image_set_record(image, 1, 1, 16384));
     CHECK_FAILS(WFPSF_ERROR_ARGUMENT, "applied = -1", wfpsf_image_set_record(image, 1, 1, -1));
     CHECK_FAILS(WFPSF_ERROR_NULL, "image", wfpsf_image_set_record(NULL, 1, 1, 0));
     check_record(image, 32, 0.11, all);

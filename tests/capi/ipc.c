@@ -336,8 +336,6 @@ static void test_apply_refuses(void) {
     CHECK_FAILS(WFPSF_ERROR_TYPE, "out",
                 wfpsf_ipc_apply(kernel, floats, WFPSF_EDGE_ZERO, NULL, to));
     CHECK_FAILS(WFPSF_ERROR_OVERLAP, "out",
-                wfpsf_ipc_apply(kernel, from, WFPSF_EDGE_ZERO, NULL, from));
-    CHECK_FAILS(WFPSF_ERROR_OVERLAP, "out",
                 wfpsf_ipc_apply(kernel, upper, WFPSF_EDGE_ZERO, NULL, shifted));
     CHECK_FAILS(WFPSF_ERROR_NULL, "kernel", wfpsf_ipc_apply(NULL, from, WFPSF_EDGE_ZERO, NULL, to));
     CHECK_FAILS(WFPSF_ERROR_NULL, "in", wfpsf_ipc_apply(kernel, NULL, WFPSF_EDGE_ZERO, NULL, to));
@@ -372,7 +370,136 @@ static void test_nan(void) {
     wfpsf_ipc_kernel_destroy(kernel);
 }
 
+static void test_algebra(void) {
+    wfpsf_ipc_kernel *kernel = table(5, 3, asymmetric), *third = NULL, *whole = NULL, *noise = NULL;
+    wfpsf_options *gather = with(WFPSF_OPTION_IPC_FORM);
+    double response[15], value = 0, real_part = 0, imaginary_part = 0, sum = 0;
+
+    CHECK_OK(wfpsf_ipc_kernel_self_test(kernel, NULL, 15, response));
+    CHECK(are_equal(response, asymmetric, 15));
+    CHECK_OK(wfpsf_ipc_kernel_self_test(kernel, gather, 15, response));
+    for (int i = 0; i < 15; ++i)
+        CHECK(response[i] == asymmetric[14 - i]);
+    CHECK_FAILS(WFPSF_ERROR_SIZE, "capacity = 14",
+                wfpsf_ipc_kernel_self_test(kernel, NULL, 14, response));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "response", wfpsf_ipc_kernel_self_test(kernel, NULL, 15, NULL));
+
+    CHECK_OK(wfpsf_ipc_kernel_create_neumann(kernel, 3, &third));
+    CHECK_OK(wfpsf_ipc_kernel_create_composed(kernel, third, &whole));
+    CHECK_OK(wfpsf_ipc_kernel_create_autocorrelation(kernel, &noise));
+    CHECK_OK(wfpsf_ipc_kernel_transform(kernel, 0.2, -0.3, &real_part, &imaginary_part));
+    const double off_x = 1 - real_part, off_y = -imaginary_part;
+    const double size = off_x * off_x + off_y * off_y;
+    CHECK_OK(wfpsf_ipc_kernel_transform(whole, 0.2, -0.3, &real_part, &imaginary_part));
+    CHECK_NEAR(hypot(1 - real_part, imaginary_part), size * size, 1e-14);
+    for (int i = 0; i < 15; ++i)
+        sum += asymmetric[i] * asymmetric[i];
+    CHECK_OK(wfpsf_ipc_kernel_get(kernel, WFPSF_KERNEL_VARIANCE_RATIO, &value));
+    CHECK_NEAR(value, sum, 1e-15);
+    CHECK_OK(wfpsf_ipc_kernel_get(kernel, WFPSF_KERNEL_CONVERSION_GAIN_BIAS, &value));
+    CHECK_NEAR(value, sum - 1, 1e-15);
+    CHECK_OK(wfpsf_ipc_kernel_get(kernel, WFPSF_KERNEL_QUANTUM_EFFICIENCY_BIAS, &value));
+    CHECK_NEAR(value, 1 / sum - 1, 1e-15);
+    double taps[45];
+    CHECK_OK(wfpsf_ipc_kernel_taps(noise, 45, taps, NULL, NULL));
+    CHECK_NEAR(taps[22], sum, 1e-15);
+    CHECK_NEAR(taps[23], taps[21], 1e-16);
+
+    static const int32_t keys[] = {
+#define KEY(name, key, text) WFPSF_KERNEL_##name,
+        WFPSF_KERNEL_PROPERTY_LIST(KEY)
+#undef KEY
+    };
+    for (size_t i = 0; i < sizeof keys / sizeof keys[0]; ++i) {
+        value = NAN;
+        CHECK_OK(wfpsf_ipc_kernel_get(kernel, keys[i], &value));
+        CHECK(!isnan(value));
+    }
+    CHECK_FAILS(WFPSF_ERROR_UNKNOWN_NAME, "key = 11", wfpsf_ipc_kernel_get(kernel, 11, &value));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "kernel", wfpsf_ipc_kernel_get(NULL, 10, &value));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "value", wfpsf_ipc_kernel_get(kernel, 10, NULL));
+    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "frequency_y = nan",
+                wfpsf_ipc_kernel_transform(kernel, 0, NAN, &real_part, &imaginary_part));
+
+    wfpsf_ipc_kernel *none = STALE(wfpsf_ipc_kernel);
+    CHECK_FAILS(WFPSF_ERROR_RANGE, "order = -1",
+                wfpsf_ipc_kernel_create_neumann(kernel, -1, &none));
+    CHECK(none == NULL);
+    CHECK_FAILS(WFPSF_ERROR_SIZE, "1023", wfpsf_ipc_kernel_create_neumann(kernel, 300, &none));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "second", wfpsf_ipc_kernel_create_composed(kernel, NULL, &none));
+    CHECK_FAILS(WFPSF_ERROR_FILE_OPEN, "no such",
+                wfpsf_ipc_kernel_read_fits("no such.fits", NULL, NULL, &none));
+    CHECK_FAILS(WFPSF_ERROR_SIZE, "capacity = 8", wfpsf_ipc_wfc3_deviations(8, taps));
+    CHECK_OK(wfpsf_ipc_wfc3_deviations(9, taps));
+    CHECK_NEAR(taps[4], 0.0045 / 0.9985, 1e-17);
+
+    wfpsf_options_destroy(gather);
+    wfpsf_ipc_kernel_destroy(noise);
+    wfpsf_ipc_kernel_destroy(whole);
+    wfpsf_ipc_kernel_destroy(third);
+    wfpsf_ipc_kernel_destroy(kernel);
+}
+
+static void test_correct(void) {
+    double charge[99], seen[99], found[99], residual = -1, noise = -1;
+    int64_t passes = -1, not_finite = -1;
+    fill_noise(charge, 99);
+    wfpsf_ipc_kernel *kernel = paper_kernel(0.02, 0.002, 0.001), *singular = NULL;
+    wfpsf_image *from = wrap(charge, 11, 9), *to = wrap(seen, 11, 9), *back = wrap(found, 11, 9);
+    for (int edge = WFPSF_EDGE_ZERO; edge <= WFPSF_EDGE_WRAP; ++edge) {
+        CHECK_OK(wfpsf_image_set_record(to, 1, 0, 0));
+        CHECK_OK(wfpsf_ipc_apply(kernel, from, edge, NULL, to));
+        CHECK_OK(wfpsf_ipc_correct(kernel, to, edge, NULL, back, &residual, &noise, &passes,
+                                   &not_finite));
+        for (int i = 0; i < 99; ++i)
+            CHECK_NEAR(found[i], charge[i], 65536 * 1e-15);
+        CHECK(residual >= 0 && residual < 1e-15 && passes > 0 && not_finite == 0);
+        CHECK(noise > 1.09 && noise < 1.12);
+        check_record(back, 1, 0, WFPSF_EFFECT_IPC + WFPSF_EFFECT_IPC_CORRECTION);
+        CHECK_OK(wfpsf_ipc_correct(kernel, to, edge, NULL, to, NULL, NULL, NULL, NULL));
+        CHECK(are_equal(seen, found, 99));
+    }
+    CHECK_FAILS(WFPSF_ERROR_ALREADY_APPLIED, "correction",
+                wfpsf_ipc_correct(kernel, to, 0, NULL, back, NULL, NULL, NULL, NULL));
+    CHECK_FAILS(WFPSF_ERROR_ARGUMENT, "edge = 3",
+                wfpsf_ipc_correct(kernel, from, 3, NULL, back, NULL, NULL, NULL, NULL));
+    CHECK_OK(wfpsf_ipc_kernel_create(0.12499, 0, 0, NULL, &singular));
+    CHECK_FAILS(WFPSF_ERROR_KERNEL_SINGULAR, "8e-05",
+                wfpsf_ipc_correct(singular, from, 0, NULL, back, NULL, NULL, NULL, NULL));
+    wfpsf_options *bold = NULL;
+    CHECK_OK(wfpsf_options_create(&bold));
+    CHECK_OK(wfpsf_options_set_real(bold, WFPSF_OPTION_IPC_LEAST_MARGIN, 1e-6));
+    CHECK_OK(wfpsf_ipc_correct(singular, from, 0, bold, back, &residual, &noise, NULL, NULL));
+    CHECK(residual < 1e-12 && noise > 50);
+    wfpsf_options_destroy(bold);
+
+    /* the variance of white noise after the kernel, away from the border */
+    double ones[99], variance[99], value = 0;
+    fill(ones, 99, 1);
+    wfpsf_image *white = wrap(ones, 11, 9), *map = wrap(variance, 11, 9);
+    CHECK_OK(wfpsf_ipc_covariance(kernel, white, 0, 0, WFPSF_EDGE_ZERO, NULL, map));
+    CHECK_OK(wfpsf_ipc_kernel_get(kernel, WFPSF_KERNEL_VARIANCE_RATIO, &value));
+    CHECK_NEAR(variance[4 * 11 + 5], value, 1e-15);
+    check_record(map, 1, 0, 0);
+    CHECK_OK(wfpsf_ipc_covariance(kernel, white, 2, 1, WFPSF_EDGE_WRAP, NULL, map));
+    CHECK_NEAR(variance[0], 2 * 0.002 * 0.021, 1e-16);
+    CHECK_OK(wfpsf_ipc_covariance(kernel, white, INT64_MAX, INT64_MIN, WFPSF_EDGE_WRAP, NULL, map));
+    CHECK(all_are(variance, 99, 0));
+    CHECK_FAILS(WFPSF_ERROR_ARGUMENT, "edge = 1",
+                wfpsf_ipc_covariance(kernel, white, 0, 0, WFPSF_EDGE_REPLICATE, NULL, map));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "variance",
+                wfpsf_ipc_covariance(kernel, NULL, 0, 0, 0, NULL, map));
+
+    wfpsf_image *const all[] = {from, to, back, white, map};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i)
+        wfpsf_image_destroy(all[i]);
+    wfpsf_ipc_kernel_destroy(singular);
+    wfpsf_ipc_kernel_destroy(kernel);
+}
+
 int main(void) {
+    test_algebra();
+    test_correct();
     test_paper_kernel();
     test_taps();
     test_bad_parameters();

@@ -25,6 +25,8 @@ static const struct pinned pinned[] = {
     {"WFPSF_ERROR_OVERLAP", -80},
     {"WFPSF_ERROR_ALREADY_APPLIED", -90},
     {"WFPSF_ERROR_KERNEL", -100},
+    {"WFPSF_ERROR_KERNEL_SINGULAR", -110},
+    {"WFPSF_ERROR_SKY_SUN", -120},
     {"WFPSF_ERROR_FILE_OPEN", -200},
     {"WFPSF_ERROR_FILE_FORMAT", -210},
     {"WFPSF_ERROR_FILE_WRITE", -220},

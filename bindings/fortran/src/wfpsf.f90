@@ -58,6 +58,8 @@ module wfpsf
         procedure :: throughput => instrument_throughput
         procedure :: zernikes => instrument_zernikes
         procedure :: pupil => instrument_pupil
+        procedure :: get_sky_level => instrument_get_sky_level
+        procedure :: get_sky_background => instrument_get_sky_background
         final :: instrument_finalize
     end type wfpsf_instrument
 
@@ -148,11 +150,34 @@ module wfpsf
         procedure :: create_default => kernel_create_default
         procedure :: create_correction => kernel_create_correction
         procedure :: create_flipped => kernel_create_flipped
+        procedure :: read_fits => kernel_read_fits
+        procedure :: create_composed => kernel_create_composed
+        procedure :: create_neumann => kernel_create_neumann
+        procedure :: create_autocorrelation => kernel_create_autocorrelation
         procedure :: destroy => kernel_destroy
         procedure :: get_taps => kernel_get_taps
+        procedure :: get => kernel_get
+        procedure :: transform => kernel_transform
+        procedure :: self_test => kernel_self_test
         procedure :: apply => kernel_apply
+        procedure :: correct => kernel_correct
+        procedure :: covariance => kernel_covariance
         final :: kernel_finalize
     end type wfpsf_ipc_kernel
+
+    ! A detector's effects in a stated order.
+    type, extends(handle) :: wfpsf_chain
+    contains
+        procedure :: create => chain_create
+        procedure :: create_default => chain_create_default
+        procedure :: destroy => chain_destroy
+        procedure :: add => chain_add
+        procedure :: add_ipc => chain_add_ipc
+        procedure :: add_map => chain_add_map
+        procedure :: get_step => chain_get_step
+        procedure :: apply => chain_apply
+        final :: chain_finalize
+    end type wfpsf_chain
 
     ! The result of a measurement.
     type, extends(handle) :: wfpsf_moments
@@ -912,7 +937,9 @@ module wfpsf
     ! IPC kernels.
     private :: kernel_create, kernel_create_taps, kernel_create_wfc3, kernel_create_default
     private :: kernel_create_correction, kernel_create_flipped, kernel_destroy, kernel_get_taps
-    private :: kernel_apply, kernel_finalize
+    private :: kernel_read_fits, kernel_create_composed, kernel_create_neumann
+    private :: kernel_create_autocorrelation, kernel_get, kernel_transform, kernel_self_test
+    private :: kernel_apply, kernel_correct, kernel_covariance, kernel_finalize
     interface
         ! The paper's 3 x 3 kernel. Option: kernel_negative.
         module subroutine kernel_create(self, alpha, alpha_prime, alpha_plus, options, stat, errmsg)
@@ -963,6 +990,41 @@ module wfpsf
             character(len=*), intent(inout), optional :: errmsg
         end subroutine kernel_create_flipped
 
+        ! From a FITS image of the taps. Options: kernel_negative, kernel_normalise.
+        module subroutine kernel_read_fits(self, path, hdu, options, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(inout) :: self
+            character(len=*), intent(in) :: path
+            character(len=*), intent(in), optional :: hdu
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_read_fits
+
+        ! What `first` does and then `second`.
+        module subroutine kernel_create_composed(self, first, second, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(inout) :: self
+            type(wfpsf_ipc_kernel), intent(in) :: first, second
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_create_composed
+
+        ! The correction of an order >= 0.
+        module subroutine kernel_create_neumann(self, kernel, order, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(inout) :: self
+            type(wfpsf_ipc_kernel), intent(in) :: kernel
+            integer, intent(in) :: order
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_create_neumann
+
+        ! Covariance, by lag, of white noise of variance 1 after another kernel.
+        module subroutine kernel_create_autocorrelation(self, kernel, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(inout) :: self
+            type(wfpsf_ipc_kernel), intent(in) :: kernel
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_create_autocorrelation
+
         module subroutine kernel_destroy(self)
             class(wfpsf_ipc_kernel), intent(inout) :: self
         end subroutine kernel_destroy
@@ -974,7 +1036,35 @@ module wfpsf
             character(len=*), intent(inout), optional :: errmsg
         end subroutine kernel_get_taps
 
-        ! Convolves one image into another; edge: wfpsf_edge_*. Options: ipc_fill, force.
+        ! A property, wfpsf_kernel_*.
+        module subroutine kernel_get(self, key, value, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(in) :: self
+            integer, intent(in) :: key
+            real(real64), intent(inout) :: value
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_get
+
+        ! The transform at a frequency, cycles per pixel.
+        module subroutine kernel_transform(self, frequency_x, frequency_y, value, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(in) :: self
+            real(real64), intent(in) :: frequency_x, frequency_y
+            complex(real64), intent(inout) :: value
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_transform
+
+        ! What apply makes of one unit of charge in the middle. Option: ipc_form.
+        module subroutine kernel_self_test(self, response, options, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(in) :: self
+            real(real64), allocatable, intent(out) :: response(:, :)
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_self_test
+
+        ! Applies the kernel; edge: wfpsf_edge_*. `to` may be `from`. Options: ipc_form, ipc_fill,
+        ! force, threads.
         module subroutine kernel_apply(self, from, edge, to, options, stat, errmsg)
             class(wfpsf_ipc_kernel), intent(in) :: self
             type(wfpsf_image), intent(in) :: from
@@ -985,9 +1075,148 @@ module wfpsf
             character(len=*), intent(inout), optional :: errmsg
         end subroutine kernel_apply
 
+        ! Undoes the kernel exactly; edge: wfpsf_edge_zero, _replicate or _wrap. `to` may be `from`.
+        ! Options: ipc_form, ipc_least_margin, ipc_tolerance, ipc_max_passes, force, threads.
+        module subroutine kernel_correct(self, from, edge, to, options, residual, noise_amplification, &
+                passes, not_finite, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(in) :: self
+            type(wfpsf_image), intent(in) :: from
+            integer, intent(in) :: edge
+            type(wfpsf_image), intent(inout) :: to
+            type(wfpsf_options), intent(in), optional :: options
+            real(real64), intent(inout), optional :: residual, noise_amplification
+            integer(int64), intent(inout), optional :: passes, not_finite
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_correct
+
+        ! Covariance of pixels (lag_x, lag_y) apart, of noise of that variance before the kernel.
+        ! Option: threads.
+        module subroutine kernel_covariance(self, variance, lag_x, lag_y, edge, to, options, stat, errmsg)
+            class(wfpsf_ipc_kernel), intent(in) :: self
+            type(wfpsf_image), intent(in) :: variance
+            integer, intent(in) :: lag_x, lag_y, edge
+            type(wfpsf_image), intent(inout) :: to
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine kernel_covariance
+
         impure elemental module subroutine kernel_finalize(self)
             type(wfpsf_ipc_kernel), intent(inout) :: self
         end subroutine kernel_finalize
+    end interface
+
+    ! Detector chains, noise, the sky.
+    private :: chain_create, chain_create_default, chain_destroy, chain_add, chain_add_ipc
+    private :: chain_add_map, chain_get_step, chain_apply, chain_finalize
+    private :: instrument_get_sky_level, instrument_get_sky_background
+    interface
+        ! An empty chain.
+        module subroutine chain_create(self, stat, errmsg)
+            class(wfpsf_chain), intent(inout) :: self
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine chain_create
+
+        ! The instrument's own, for its own exposure time (s) or another.
+        module subroutine chain_create_default(self, instrument, exposure_time, stat, errmsg)
+            class(wfpsf_chain), intent(inout) :: self
+            type(wfpsf_instrument), intent(in) :: instrument
+            real(real64), intent(in), optional :: exposure_time
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine chain_create_default
+
+        module subroutine chain_destroy(self)
+            class(wfpsf_chain), intent(inout) :: self
+        end subroutine chain_destroy
+
+        ! Adds wfpsf_step_* at the end, with its parameters.
+        module subroutine chain_add(self, step, parameters, stat, errmsg)
+            class(wfpsf_chain), intent(inout) :: self
+            integer, intent(in) :: step
+            real(real64), intent(in), contiguous :: parameters(:)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine chain_add
+
+        ! edge: wfpsf_edge_zero, _replicate, _wrap or _crop.
+        module subroutine chain_add_ipc(self, kernel, edge, stat, errmsg)
+            class(wfpsf_chain), intent(inout) :: self
+            type(wfpsf_ipc_kernel), intent(in) :: kernel
+            integer, intent(in) :: edge
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine chain_add_ipc
+
+        ! Adds a step with a map, which is copied.
+        module subroutine chain_add_map(self, step, parameters, map, stat, errmsg)
+            class(wfpsf_chain), intent(inout) :: self
+            integer, intent(in) :: step
+            real(real64), intent(in), contiguous :: parameters(:)
+            type(wfpsf_image), intent(in) :: map
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine chain_add_map
+
+        ! The index-th step, from 1; step is 0 past the last one.
+        module subroutine chain_get_step(self, index, step, parameters, stat, errmsg)
+            class(wfpsf_chain), intent(in) :: self
+            integer, intent(in) :: index
+            integer, intent(out) :: step
+            real(real64), allocatable, intent(out) :: parameters(:)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine chain_get_step
+
+        ! Applies the chain in place. previous: exposures before this one, the latest first.
+        ! Options: seed, stream, origin_x, origin_y, noise, force, threads.
+        module subroutine chain_apply(self, image, previous, options, not_finite, saturated, stat, errmsg)
+            class(wfpsf_chain), intent(in) :: self
+            type(wfpsf_image), intent(inout) :: image
+            type(wfpsf_image), intent(in), optional :: previous(:)
+            type(wfpsf_options), intent(in), optional :: options
+            integer(int64), intent(inout), optional :: not_finite, saturated
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine chain_apply
+
+        impure elemental module subroutine chain_finalize(self)
+            type(wfpsf_chain), intent(inout) :: self
+        end subroutine chain_finalize
+
+        ! Adds normal noise, white or through a kernel. Options: seed, stream, origin_x, origin_y,
+        ! threads.
+        module subroutine wfpsf_add_noise(image, rms, kernel, options, stat, errmsg)
+            type(wfpsf_image), intent(inout) :: image
+            real(real64), intent(in) :: rms
+            type(wfpsf_ipc_kernel), intent(in), optional :: kernel
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine wfpsf_add_noise
+
+        ! Zodiacal light, e-/s/arcsec2; degrees, the longitude from the Sun.
+        module subroutine instrument_get_sky_level(self, band, longitude, latitude, level, stat, errmsg)
+            class(wfpsf_instrument), intent(in) :: self
+            character(len=*), intent(in) :: band
+            real(real64), intent(in) :: longitude, latitude
+            real(real64), intent(inout) :: level
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine instrument_get_sky_level
+
+        ! Zodiacal, stray and thermal background of a pixel (area in arcsec2) in an exposure (s).
+        module subroutine instrument_get_sky_background(self, band, longitude, latitude, exposure_time, &
+                pixel_area, electrons, stat, errmsg)
+            class(wfpsf_instrument), intent(in) :: self
+            character(len=*), intent(in) :: band
+            real(real64), intent(in) :: longitude, latitude, exposure_time, pixel_area
+            real(real64), intent(inout) :: electrons
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine instrument_get_sky_background
     end interface
 
     ! Moments.

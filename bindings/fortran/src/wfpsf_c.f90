@@ -31,6 +31,8 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_error_overlap = -80
     integer(c_int32_t), parameter :: wfpsf_error_already_applied = -90
     integer(c_int32_t), parameter :: wfpsf_error_kernel = -100
+    integer(c_int32_t), parameter :: wfpsf_error_kernel_singular = -110
+    integer(c_int32_t), parameter :: wfpsf_error_sky_sun = -120
     integer(c_int32_t), parameter :: wfpsf_error_file_open = -200
     integer(c_int32_t), parameter :: wfpsf_error_file_format = -210
     integer(c_int32_t), parameter :: wfpsf_error_file_write = -220
@@ -63,6 +65,10 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_option_ipc_fill = 210
     integer(c_int32_t), parameter :: wfpsf_option_kernel_negative = 220
     integer(c_int32_t), parameter :: wfpsf_option_kernel_normalise = 230
+    integer(c_int32_t), parameter :: wfpsf_option_ipc_form = 240
+    integer(c_int32_t), parameter :: wfpsf_option_ipc_least_margin = 250
+    integer(c_int32_t), parameter :: wfpsf_option_ipc_tolerance = 260
+    integer(c_int32_t), parameter :: wfpsf_option_ipc_max_passes = 270
     integer(c_int32_t), parameter :: wfpsf_option_moments_tolerance = 300
     integer(c_int32_t), parameter :: wfpsf_option_moments_max_passes = 310
     integer(c_int32_t), parameter :: wfpsf_option_moments_guess_x = 320
@@ -73,6 +79,11 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_option_fits_overwrite = 500
     integer(c_int32_t), parameter :: wfpsf_option_threads = 600
     integer(c_int32_t), parameter :: wfpsf_option_memory_limit = 610
+    integer(c_int32_t), parameter :: wfpsf_option_seed = 700
+    integer(c_int32_t), parameter :: wfpsf_option_stream = 710
+    integer(c_int32_t), parameter :: wfpsf_option_origin_x = 720
+    integer(c_int32_t), parameter :: wfpsf_option_origin_y = 730
+    integer(c_int32_t), parameter :: wfpsf_option_noise = 740
     integer(c_int32_t), parameter :: wfpsf_option_real = 1
     integer(c_int32_t), parameter :: wfpsf_option_integer = 2
 
@@ -82,6 +93,17 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_effect_pixel_response = 1
     integer(c_int32_t), parameter :: wfpsf_effect_ipc = 2
     integer(c_int32_t), parameter :: wfpsf_effect_ipc_correction = 4
+    integer(c_int32_t), parameter :: wfpsf_effect_charge_diffusion = 8
+    integer(c_int32_t), parameter :: wfpsf_effect_background = 16
+    integer(c_int32_t), parameter :: wfpsf_effect_poisson_noise = 32
+    integer(c_int32_t), parameter :: wfpsf_effect_reciprocity_failure = 64
+    integer(c_int32_t), parameter :: wfpsf_effect_dark_current = 128
+    integer(c_int32_t), parameter :: wfpsf_effect_persistence = 256
+    integer(c_int32_t), parameter :: wfpsf_effect_nonlinearity = 512
+    integer(c_int32_t), parameter :: wfpsf_effect_nonlinearity_correction = 1024
+    integer(c_int32_t), parameter :: wfpsf_effect_capacitance = 2048
+    integer(c_int32_t), parameter :: wfpsf_effect_read_noise = 4096
+    integer(c_int32_t), parameter :: wfpsf_effect_gain = 8192
     integer(c_int32_t), parameter :: wfpsf_dither_detector = 1
     integer(c_int32_t), parameter :: wfpsf_dither_object = 2
 
@@ -127,12 +149,51 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_order_half = 3
 
     ! ipc.h
+    integer(c_int32_t), parameter :: wfpsf_kernel_sum = 10
+    integer(c_int32_t), parameter :: wfpsf_kernel_centroid_x = 20
+    integer(c_int32_t), parameter :: wfpsf_kernel_centroid_y = 30
+    integer(c_int32_t), parameter :: wfpsf_kernel_mxx = 40
+    integer(c_int32_t), parameter :: wfpsf_kernel_mxy = 50
+    integer(c_int32_t), parameter :: wfpsf_kernel_myy = 60
+    integer(c_int32_t), parameter :: wfpsf_kernel_left_right = 100
+    integer(c_int32_t), parameter :: wfpsf_kernel_up_down = 110
+    integer(c_int32_t), parameter :: wfpsf_kernel_half_turn = 120
+    integer(c_int32_t), parameter :: wfpsf_kernel_transposed = 130
+    integer(c_int32_t), parameter :: wfpsf_kernel_margin = 200
+    integer(c_int32_t), parameter :: wfpsf_kernel_margin_frequency_x = 210
+    integer(c_int32_t), parameter :: wfpsf_kernel_margin_frequency_y = 220
+    integer(c_int32_t), parameter :: wfpsf_kernel_variance_ratio = 300
+    integer(c_int32_t), parameter :: wfpsf_kernel_conversion_gain_bias = 310
+    integer(c_int32_t), parameter :: wfpsf_kernel_quantum_efficiency_bias = 320
+    integer(c_int32_t), parameter :: wfpsf_kernel_inverse_noise = 330
+    integer(c_int32_t), parameter :: wfpsf_ipc_scatter = 0
+    integer(c_int32_t), parameter :: wfpsf_ipc_gather = 1
     integer(c_int32_t), parameter :: wfpsf_edge_zero = 0
     integer(c_int32_t), parameter :: wfpsf_edge_replicate = 1
     integer(c_int32_t), parameter :: wfpsf_edge_wrap = 2
     integer(c_int32_t), parameter :: wfpsf_edge_crop = 3
     integer(c_int32_t), parameter :: wfpsf_edge_fill = 4
     integer(c_int32_t), parameter :: wfpsf_edge_valid = 5
+
+    ! chain.h
+    integer(c_int32_t), parameter :: wfpsf_step_clip_negative = 10
+    integer(c_int32_t), parameter :: wfpsf_step_charge_diffusion = 20
+    integer(c_int32_t), parameter :: wfpsf_step_background = 30
+    integer(c_int32_t), parameter :: wfpsf_step_poisson_noise = 40
+    integer(c_int32_t), parameter :: wfpsf_step_quantisation = 50
+    integer(c_int32_t), parameter :: wfpsf_step_reciprocity_failure = 60
+    integer(c_int32_t), parameter :: wfpsf_step_dark_current = 70
+    integer(c_int32_t), parameter :: wfpsf_step_dark_current_map = 71
+    integer(c_int32_t), parameter :: wfpsf_step_persistence_linear = 80
+    integer(c_int32_t), parameter :: wfpsf_step_persistence_fermi = 81
+    integer(c_int32_t), parameter :: wfpsf_step_nonlinearity = 90
+    integer(c_int32_t), parameter :: wfpsf_step_nonlinearity_inverse = 100
+    integer(c_int32_t), parameter :: wfpsf_step_capacitance_map = 110
+    integer(c_int32_t), parameter :: wfpsf_step_ipc = 120
+    integer(c_int32_t), parameter :: wfpsf_step_read_noise = 130
+    integer(c_int32_t), parameter :: wfpsf_step_saturation = 140
+    integer(c_int32_t), parameter :: wfpsf_step_gain = 150
+    integer(c_int32_t), parameter :: wfpsf_step_pixel_mask = 160
 
     ! moments.h
     integer(c_int32_t), parameter :: wfpsf_moments_centroid_x = 10
@@ -1000,6 +1061,55 @@ module wfpsf_c
             integer(c_int32_t) :: outcome
         end function wfpsf_ipc_kernel_create_flipped
 
+        function wfpsf_ipc_kernel_read_fits(path, hdu, options, out) &
+            bind(c, name="wfpsf_ipc_kernel_read_fits") result(outcome)
+            import :: c_char, c_int32_t, c_ptr
+            implicit none
+            character(kind=c_char), intent(in), optional :: path(*)
+            character(kind=c_char), intent(in), optional :: hdu(*)
+            type(c_ptr), value :: options
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_kernel_read_fits
+
+        function wfpsf_ipc_kernel_create_composed(first, second, out) &
+            bind(c, name="wfpsf_ipc_kernel_create_composed") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: first
+            type(c_ptr), value :: second
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_kernel_create_composed
+
+        function wfpsf_ipc_kernel_create_neumann(kernel, order, out) &
+            bind(c, name="wfpsf_ipc_kernel_create_neumann") result(outcome)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: kernel
+            integer(c_int64_t), value :: order
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_kernel_create_neumann
+
+        function wfpsf_ipc_kernel_create_autocorrelation(kernel, out) &
+            bind(c, name="wfpsf_ipc_kernel_create_autocorrelation") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: kernel
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_kernel_create_autocorrelation
+
+        function wfpsf_ipc_wfc3_deviations(capacity, deviations) &
+            bind(c, name="wfpsf_ipc_wfc3_deviations") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t
+            implicit none
+            integer(c_int64_t), value :: capacity
+            real(c_double), intent(inout), optional :: deviations(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_wfc3_deviations
+
         subroutine wfpsf_ipc_kernel_destroy(kernel) bind(c, name="wfpsf_ipc_kernel_destroy")
             import :: c_ptr
             implicit none
@@ -1018,6 +1128,28 @@ module wfpsf_c
             integer(c_int32_t) :: outcome
         end function wfpsf_ipc_kernel_taps
 
+        function wfpsf_ipc_kernel_get(kernel, key, value) &
+            bind(c, name="wfpsf_ipc_kernel_get") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: kernel
+            integer(c_int32_t), value :: key
+            real(c_double), intent(inout), optional :: value
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_kernel_get
+
+        function wfpsf_ipc_kernel_transform(kernel, frequency_x, frequency_y, real_part, &
+            imaginary_part) bind(c, name="wfpsf_ipc_kernel_transform") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: kernel
+            real(c_double), value :: frequency_x
+            real(c_double), value :: frequency_y
+            real(c_double), intent(inout), optional :: real_part
+            real(c_double), intent(inout), optional :: imaginary_part
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_kernel_transform
+
         function wfpsf_ipc_apply(kernel, in, edge, options, out) &
             bind(c, name="wfpsf_ipc_apply") result(outcome)
             import :: c_int32_t, c_ptr
@@ -1029,6 +1161,176 @@ module wfpsf_c
             type(c_ptr), value :: out
             integer(c_int32_t) :: outcome
         end function wfpsf_ipc_apply
+
+        function wfpsf_ipc_kernel_self_test(kernel, options, capacity, response) &
+            bind(c, name="wfpsf_ipc_kernel_self_test") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: kernel
+            type(c_ptr), value :: options
+            integer(c_int64_t), value :: capacity
+            real(c_double), intent(inout), optional :: response(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_kernel_self_test
+
+        function wfpsf_ipc_correct(kernel, in, edge, options, out, residual, noise_amplification, &
+            passes, not_finite) bind(c, name="wfpsf_ipc_correct") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: kernel
+            type(c_ptr), value :: in
+            integer(c_int32_t), value :: edge
+            type(c_ptr), value :: options
+            type(c_ptr), value :: out
+            real(c_double), intent(inout), optional :: residual
+            real(c_double), intent(inout), optional :: noise_amplification
+            integer(c_int64_t), intent(inout), optional :: passes
+            integer(c_int64_t), intent(inout), optional :: not_finite
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_correct
+
+        function wfpsf_ipc_covariance(kernel, variance, lag_x, lag_y, edge, options, out) &
+            bind(c, name="wfpsf_ipc_covariance") result(outcome)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: kernel
+            type(c_ptr), value :: variance
+            integer(c_int64_t), value :: lag_x
+            integer(c_int64_t), value :: lag_y
+            integer(c_int32_t), value :: edge
+            type(c_ptr), value :: options
+            type(c_ptr), value :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_ipc_covariance
+
+        ! chain.h
+        function wfpsf_chain_create(out) bind(c, name="wfpsf_chain_create") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_chain_create
+
+        function wfpsf_chain_create_default(instrument, exposure_time, out) &
+            bind(c, name="wfpsf_chain_create_default") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            real(c_double), value :: exposure_time
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_chain_create_default
+
+        subroutine wfpsf_chain_destroy(chain) bind(c, name="wfpsf_chain_destroy")
+            import :: c_ptr
+            implicit none
+            type(c_ptr), value :: chain
+        end subroutine wfpsf_chain_destroy
+
+        function wfpsf_chain_add(chain, step, count, parameters) &
+            bind(c, name="wfpsf_chain_add") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: chain
+            integer(c_int32_t), value :: step
+            integer(c_int64_t), value :: count
+            real(c_double), intent(in), optional :: parameters(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_chain_add
+
+        function wfpsf_chain_add_ipc(chain, kernel, edge) &
+            bind(c, name="wfpsf_chain_add_ipc") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: chain
+            type(c_ptr), value :: kernel
+            integer(c_int32_t), value :: edge
+            integer(c_int32_t) :: outcome
+        end function wfpsf_chain_add_ipc
+
+        function wfpsf_chain_add_map(chain, step, count, parameters, map) &
+            bind(c, name="wfpsf_chain_add_map") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: chain
+            integer(c_int32_t), value :: step
+            integer(c_int64_t), value :: count
+            real(c_double), intent(in), optional :: parameters(*)
+            type(c_ptr), value :: map
+            integer(c_int32_t) :: outcome
+        end function wfpsf_chain_add_map
+
+        function wfpsf_chain_step(chain, index, capacity, parameters, count, step) &
+            bind(c, name="wfpsf_chain_step") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: chain
+            integer(c_int64_t), value :: index
+            integer(c_int64_t), value :: capacity
+            real(c_double), intent(inout), optional :: parameters(*)
+            integer(c_int64_t), intent(inout), optional :: count
+            integer(c_int32_t), intent(inout), optional :: step
+            integer(c_int32_t) :: outcome
+        end function wfpsf_chain_step
+
+        function wfpsf_step_name(step) bind(c, name="wfpsf_step_name") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            integer(c_int32_t), value :: step
+            type(c_ptr) :: outcome
+        end function wfpsf_step_name
+
+        function wfpsf_chain_apply(chain, image, previous_count, previous, options, not_finite, &
+            saturated) bind(c, name="wfpsf_chain_apply") result(outcome)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: chain
+            type(c_ptr), value :: image
+            integer(c_int64_t), value :: previous_count
+            type(c_ptr), intent(in), optional :: previous(*)
+            type(c_ptr), value :: options
+            integer(c_int64_t), intent(inout), optional :: not_finite
+            integer(c_int64_t), intent(inout), optional :: saturated
+            integer(c_int32_t) :: outcome
+        end function wfpsf_chain_apply
+
+        function wfpsf_noise_add(image, rms, kernel, options) &
+            bind(c, name="wfpsf_noise_add") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: image
+            real(c_double), value :: rms
+            type(c_ptr), value :: kernel
+            type(c_ptr), value :: options
+            integer(c_int32_t) :: outcome
+        end function wfpsf_noise_add
+
+        ! sky.h
+        function wfpsf_sky_level(instrument, band, longitude, latitude, level) &
+            bind(c, name="wfpsf_sky_level") result(outcome)
+            import :: c_char, c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            character(kind=c_char), intent(in), optional :: band(*)
+            real(c_double), value :: longitude
+            real(c_double), value :: latitude
+            real(c_double), intent(inout), optional :: level
+            integer(c_int32_t) :: outcome
+        end function wfpsf_sky_level
+
+        function wfpsf_sky_background(instrument, band, longitude, latitude, exposure_time, &
+            pixel_area, electrons) bind(c, name="wfpsf_sky_background") result(outcome)
+            import :: c_char, c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            character(kind=c_char), intent(in), optional :: band(*)
+            real(c_double), value :: longitude
+            real(c_double), value :: latitude
+            real(c_double), value :: exposure_time
+            real(c_double), value :: pixel_area
+            real(c_double), intent(inout), optional :: electrons
+            integer(c_int32_t) :: outcome
+        end function wfpsf_sky_background
 
         ! moments.h
         function wfpsf_moments_measure(image, options, out) &

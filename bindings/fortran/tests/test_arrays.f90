@@ -2,7 +2,7 @@
 ! Images on Fortran arrays: both types, any strides, no copy; pixels out of images; files; the other
 ! arrays that cross the border.
 program test_arrays
-    use, intrinsic :: iso_fortran_env, only: real32, real64
+    use, intrinsic :: iso_fortran_env, only: int64, real32, real64
     use expectations, only: expect
     use wfpsf
     implicit none
@@ -22,6 +22,8 @@ program test_arrays
     call reads_and_writes()
     call interleaves()
     call passes_taps()
+    call corrects_ipc()
+    call runs_a_chain()
     call passes_instrument_arrays()
     call designs()
 
@@ -212,6 +214,85 @@ contains
         call expect(abs(seen(1, 2) - 0.021_real64) < 1e-15_real64 &
             .and. abs(seen(2, 1) - 0.019_real64) < 1e-15_real64, "alpha_plus is more along x")
     end subroutine passes_taps
+
+    subroutine corrects_ipc()
+        type(wfpsf_ipc_kernel) :: kernel, rest, noise
+        type(wfpsf_image) :: image, map
+        real(real64), target :: a(9, 7), variance(9, 7)
+        real(real64), allocatable :: response(:, :), taps(:, :)
+        real(real64) :: margin, residual
+        complex(real64) :: value
+        integer(int64) :: passes
+
+        a = numbered(9, 7)
+        variance = 1
+        call image%wrap(a, 1)
+        call map%wrap(variance, 1)
+        call kernel%create(0.02_real64, 0.002_real64, 0.001_real64)
+        call kernel%get(wfpsf_kernel_margin, margin)
+        call kernel%transform(0.5_real64, 0.5_real64, value)
+        call expect(abs(margin - 0.84_real64) + abs(value - margin) < 1e-14_real64, "margin")
+        call kernel%self_test(response)
+        call kernel%get_taps(taps)
+        call expect(maxval(abs(response - taps)) < 1e-15_real64, "self-test")
+        call kernel%apply(image, wfpsf_edge_zero, image)
+        call kernel%correct(image, wfpsf_edge_zero, image, residual=residual, passes=passes)
+        call expect(maxval(abs(a - numbered(9, 7))) < 1e-11_real64, "correction")
+        call expect(residual < 1e-14_real64 .and. passes > 0, "report of the correction")
+        call rest%create_neumann(kernel, 2)
+        call rest%create_composed(kernel, rest)
+        call rest%transform(0.5_real64, 0.5_real64, value)
+        call expect(abs(1 - value - 0.16_real64**3) < 1e-14_real64, "order 2")
+        call noise%create_autocorrelation(kernel)
+        call noise%get_taps(taps)
+        call kernel%covariance(map, 0, 0, wfpsf_edge_wrap, map)
+        call expect(maxval(abs(variance - taps(3, 3))) < 1e-15_real64, "variance")
+    end subroutine corrects_ipc
+
+    subroutine runs_a_chain()
+        type(wfpsf_instrument) :: roman
+        type(wfpsf_chain) :: chain, own
+        type(wfpsf_options) :: options
+        type(wfpsf_image) :: image, previous(1)
+        real(real64), target :: a(9, 7), before(9, 7)
+        real(real64), allocatable :: parameters(:)
+        real(real64) :: level, electrons
+        integer(int64) :: not_finite, saturated
+        integer :: step, stat
+
+        call roman%create("roman-c9")
+        call chain%create_default(roman)
+        call chain%get_step(4, step, parameters)
+        call expect(step == wfpsf_step_reciprocity_failure .and. size(parameters) == 3, "step 4")
+        call chain%get_step(12, step, parameters)
+        call expect(step == 0, "past the last step")
+        a = 1000
+        before = 60000
+        call image%wrap(a, 1)
+        call previous(1)%wrap(before, 1)
+        call options%create()
+        call options%set(wfpsf_option_seed, 42)
+        call chain%apply(image, previous, options, not_finite, saturated)
+        call expect(not_finite == 0 .and. saturated == 0, "counts")
+        call expect(abs(sum(a) / size(a) - 1000) < 100, "mean after the chain")
+        call chain%apply(image, stat=stat)
+        call expect(stat == wfpsf_error_already_applied, "twice")
+
+        call own%create()
+        call own%add(wfpsf_step_nonlinearity, [-1e-6_real64])
+        call own%add(wfpsf_step_saturation, [50000.0_real64])
+        call own%add_map(wfpsf_step_pixel_mask, [0.0_real64, 1.0_real64], previous(1))
+        call own%apply(previous(1), saturated=saturated)
+        call expect(all(before == 50000) .and. saturated == 63, "own chain")
+
+        a = 0
+        call wfpsf_add_noise(image, 3.0_real64)
+        call expect(any(a > 0) .and. any(a < 0), "noise")
+        call roman%get_sky_level("F184", 180.0_real64, 90.0_real64, level)
+        call roman%get_sky_background("F184", 180.0_real64, 90.0_real64, 10.0_real64, &
+            0.0121_real64, electrons)
+        call expect(abs(electrons - 10 * (1.1 * 0.0121_real64 * level + 0.17_real64)) < 1e-5, "sky")
+    end subroutine runs_a_chain
 
     subroutine passes_instrument_arrays()
         type(wfpsf_instrument) :: instrument

@@ -47,6 +47,8 @@ const WFPSF_ERROR_UNKNOWN_NAME = Int32(-70)
 const WFPSF_ERROR_OVERLAP = Int32(-80)
 const WFPSF_ERROR_ALREADY_APPLIED = Int32(-90)
 const WFPSF_ERROR_KERNEL = Int32(-100)
+const WFPSF_ERROR_KERNEL_SINGULAR = Int32(-110)
+const WFPSF_ERROR_SKY_SUN = Int32(-120)
 const WFPSF_ERROR_FILE_OPEN = Int32(-200)
 const WFPSF_ERROR_FILE_FORMAT = Int32(-210)
 const WFPSF_ERROR_FILE_WRITE = Int32(-220)
@@ -97,6 +99,10 @@ const WFPSF_OPTION_FORCE = Int32(200)
 const WFPSF_OPTION_IPC_FILL = Int32(210)
 const WFPSF_OPTION_KERNEL_NEGATIVE = Int32(220)
 const WFPSF_OPTION_KERNEL_NORMALISE = Int32(230)
+const WFPSF_OPTION_IPC_FORM = Int32(240)
+const WFPSF_OPTION_IPC_LEAST_MARGIN = Int32(250)
+const WFPSF_OPTION_IPC_TOLERANCE = Int32(260)
+const WFPSF_OPTION_IPC_MAX_PASSES = Int32(270)
 const WFPSF_OPTION_MOMENTS_TOLERANCE = Int32(300)
 const WFPSF_OPTION_MOMENTS_MAX_PASSES = Int32(310)
 const WFPSF_OPTION_MOMENTS_GUESS_X = Int32(320)
@@ -107,6 +113,11 @@ const WFPSF_OPTION_SIZE_BANDWIDTH = Int32(410)
 const WFPSF_OPTION_FITS_OVERWRITE = Int32(500)
 const WFPSF_OPTION_THREADS = Int32(600)
 const WFPSF_OPTION_MEMORY_LIMIT = Int32(610)
+const WFPSF_OPTION_SEED = Int32(700)
+const WFPSF_OPTION_STREAM = Int32(710)
+const WFPSF_OPTION_ORIGIN_X = Int32(720)
+const WFPSF_OPTION_ORIGIN_Y = Int32(730)
+const WFPSF_OPTION_NOISE = Int32(740)
 const WFPSF_OPTION_REAL = Int32(1)
 const WFPSF_OPTION_INTEGER = Int32(2)
 
@@ -171,6 +182,17 @@ const WFPSF_FLOAT64 = Int32(64)
 const WFPSF_EFFECT_PIXEL_RESPONSE = Int32(1)
 const WFPSF_EFFECT_IPC = Int32(2)
 const WFPSF_EFFECT_IPC_CORRECTION = Int32(4)
+const WFPSF_EFFECT_CHARGE_DIFFUSION = Int32(8)
+const WFPSF_EFFECT_BACKGROUND = Int32(16)
+const WFPSF_EFFECT_POISSON_NOISE = Int32(32)
+const WFPSF_EFFECT_RECIPROCITY_FAILURE = Int32(64)
+const WFPSF_EFFECT_DARK_CURRENT = Int32(128)
+const WFPSF_EFFECT_PERSISTENCE = Int32(256)
+const WFPSF_EFFECT_NONLINEARITY = Int32(512)
+const WFPSF_EFFECT_NONLINEARITY_CORRECTION = Int32(1024)
+const WFPSF_EFFECT_CAPACITANCE = Int32(2048)
+const WFPSF_EFFECT_READ_NOISE = Int32(4096)
+const WFPSF_EFFECT_GAIN = Int32(8192)
 const WFPSF_DITHER_DETECTOR = Int32(1)
 const WFPSF_DITHER_OBJECT = Int32(2)
 
@@ -594,6 +616,25 @@ function wfpsf_otf_get(otf, key, value)
 end
 
 # ipc.h
+const WFPSF_KERNEL_SUM = Int32(10)
+const WFPSF_KERNEL_CENTROID_X = Int32(20)
+const WFPSF_KERNEL_CENTROID_Y = Int32(30)
+const WFPSF_KERNEL_MXX = Int32(40)
+const WFPSF_KERNEL_MXY = Int32(50)
+const WFPSF_KERNEL_MYY = Int32(60)
+const WFPSF_KERNEL_LEFT_RIGHT = Int32(100)
+const WFPSF_KERNEL_UP_DOWN = Int32(110)
+const WFPSF_KERNEL_HALF_TURN = Int32(120)
+const WFPSF_KERNEL_TRANSPOSED = Int32(130)
+const WFPSF_KERNEL_MARGIN = Int32(200)
+const WFPSF_KERNEL_MARGIN_FREQUENCY_X = Int32(210)
+const WFPSF_KERNEL_MARGIN_FREQUENCY_Y = Int32(220)
+const WFPSF_KERNEL_VARIANCE_RATIO = Int32(300)
+const WFPSF_KERNEL_CONVERSION_GAIN_BIAS = Int32(310)
+const WFPSF_KERNEL_QUANTUM_EFFICIENCY_BIAS = Int32(320)
+const WFPSF_KERNEL_INVERSE_NOISE = Int32(330)
+const WFPSF_IPC_SCATTER = Int32(0)
+const WFPSF_IPC_GATHER = Int32(1)
 const WFPSF_EDGE_ZERO = Int32(0)
 const WFPSF_EDGE_REPLICATE = Int32(1)
 const WFPSF_EDGE_WRAP = Int32(2)
@@ -639,6 +680,40 @@ function wfpsf_ipc_kernel_create_flipped(kernel, out)
         kernel, out)
 end
 
+const wfpsf_ipc_kernel_read_fits_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_read_fits(path, hdu, options, out)
+    return ccall(wfpsf_ipc_kernel_read_fits_pointer[], Int32, (Cstring, Cstring, Ptr{Cvoid},
+        Ptr{Ptr{Cvoid}}),
+        path, hdu, options, out)
+end
+
+const wfpsf_ipc_kernel_create_composed_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_create_composed(first, second, out)
+    return ccall(wfpsf_ipc_kernel_create_composed_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid},
+        Ptr{Ptr{Cvoid}}),
+        first, second, out)
+end
+
+const wfpsf_ipc_kernel_create_neumann_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_create_neumann(kernel, order, out)
+    return ccall(wfpsf_ipc_kernel_create_neumann_pointer[], Int32, (Ptr{Cvoid}, Int64,
+        Ptr{Ptr{Cvoid}}),
+        kernel, order, out)
+end
+
+const wfpsf_ipc_kernel_create_autocorrelation_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_create_autocorrelation(kernel, out)
+    return ccall(wfpsf_ipc_kernel_create_autocorrelation_pointer[], Int32, (Ptr{Cvoid},
+        Ptr{Ptr{Cvoid}}),
+        kernel, out)
+end
+
+const wfpsf_ipc_wfc3_deviations_pointer = Ref(C_NULL)
+function wfpsf_ipc_wfc3_deviations(capacity, deviations)
+    return ccall(wfpsf_ipc_wfc3_deviations_pointer[], Int32, (Int64, Ptr{Float64}),
+        capacity, deviations)
+end
+
 const wfpsf_ipc_kernel_destroy_pointer = Ref(C_NULL)
 function wfpsf_ipc_kernel_destroy(kernel)
     return ccall(wfpsf_ipc_kernel_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
@@ -652,11 +727,146 @@ function wfpsf_ipc_kernel_taps(kernel, capacity, taps, nx, ny)
         kernel, capacity, taps, nx, ny)
 end
 
+const wfpsf_ipc_kernel_get_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_get(kernel, key, value)
+    return ccall(wfpsf_ipc_kernel_get_pointer[], Int32, (Ptr{Cvoid}, Int32, Ptr{Float64}),
+        kernel, key, value)
+end
+
+const wfpsf_ipc_kernel_transform_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_transform(kernel, frequency_x, frequency_y, real_part, imaginary_part)
+    return ccall(wfpsf_ipc_kernel_transform_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64,
+        Ptr{Float64}, Ptr{Float64}),
+        kernel, frequency_x, frequency_y, real_part, imaginary_part)
+end
+
 const wfpsf_ipc_apply_pointer = Ref(C_NULL)
 function wfpsf_ipc_apply(kernel, input, edge, options, out)
     return ccall(wfpsf_ipc_apply_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int32, Ptr{Cvoid},
         Ptr{Cvoid}),
         kernel, input, edge, options, out)
+end
+
+const wfpsf_ipc_kernel_self_test_pointer = Ref(C_NULL)
+function wfpsf_ipc_kernel_self_test(kernel, options, capacity, response)
+    return ccall(wfpsf_ipc_kernel_self_test_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int64,
+        Ptr{Float64}),
+        kernel, options, capacity, response)
+end
+
+const wfpsf_ipc_correct_pointer = Ref(C_NULL)
+function wfpsf_ipc_correct(kernel, input, edge, options, out, residual, noise_amplification, passes,
+    not_finite)
+    return ccall(wfpsf_ipc_correct_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int32, Ptr{Cvoid},
+        Ptr{Cvoid}, Ptr{Float64}, Ptr{Float64}, Ptr{Int64}, Ptr{Int64}),
+        kernel, input, edge, options, out, residual, noise_amplification, passes, not_finite)
+end
+
+const wfpsf_ipc_covariance_pointer = Ref(C_NULL)
+function wfpsf_ipc_covariance(kernel, variance, lag_x, lag_y, edge, options, out)
+    return ccall(wfpsf_ipc_covariance_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int64, Int64,
+        Int32, Ptr{Cvoid}, Ptr{Cvoid}),
+        kernel, variance, lag_x, lag_y, edge, options, out)
+end
+
+# chain.h
+const WFPSF_STEP_CLIP_NEGATIVE = Int32(10)
+const WFPSF_STEP_CHARGE_DIFFUSION = Int32(20)
+const WFPSF_STEP_BACKGROUND = Int32(30)
+const WFPSF_STEP_POISSON_NOISE = Int32(40)
+const WFPSF_STEP_QUANTISATION = Int32(50)
+const WFPSF_STEP_RECIPROCITY_FAILURE = Int32(60)
+const WFPSF_STEP_DARK_CURRENT = Int32(70)
+const WFPSF_STEP_DARK_CURRENT_MAP = Int32(71)
+const WFPSF_STEP_PERSISTENCE_LINEAR = Int32(80)
+const WFPSF_STEP_PERSISTENCE_FERMI = Int32(81)
+const WFPSF_STEP_NONLINEARITY = Int32(90)
+const WFPSF_STEP_NONLINEARITY_INVERSE = Int32(100)
+const WFPSF_STEP_CAPACITANCE_MAP = Int32(110)
+const WFPSF_STEP_IPC = Int32(120)
+const WFPSF_STEP_READ_NOISE = Int32(130)
+const WFPSF_STEP_SATURATION = Int32(140)
+const WFPSF_STEP_GAIN = Int32(150)
+const WFPSF_STEP_PIXEL_MASK = Int32(160)
+
+const wfpsf_chain_create_pointer = Ref(C_NULL)
+function wfpsf_chain_create(out)
+    return ccall(wfpsf_chain_create_pointer[], Int32, (Ptr{Ptr{Cvoid}},),
+        out)
+end
+
+const wfpsf_chain_create_default_pointer = Ref(C_NULL)
+function wfpsf_chain_create_default(instrument, exposure_time, out)
+    return ccall(wfpsf_chain_create_default_pointer[], Int32, (Ptr{Cvoid}, Float64,
+        Ptr{Ptr{Cvoid}}),
+        instrument, exposure_time, out)
+end
+
+const wfpsf_chain_destroy_pointer = Ref(C_NULL)
+function wfpsf_chain_destroy(chain)
+    return ccall(wfpsf_chain_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
+        chain)
+end
+
+const wfpsf_chain_add_pointer = Ref(C_NULL)
+function wfpsf_chain_add(chain, step, count, parameters)
+    return ccall(wfpsf_chain_add_pointer[], Int32, (Ptr{Cvoid}, Int32, Int64, Ptr{Float64}),
+        chain, step, count, parameters)
+end
+
+const wfpsf_chain_add_ipc_pointer = Ref(C_NULL)
+function wfpsf_chain_add_ipc(chain, kernel, edge)
+    return ccall(wfpsf_chain_add_ipc_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int32),
+        chain, kernel, edge)
+end
+
+const wfpsf_chain_add_map_pointer = Ref(C_NULL)
+function wfpsf_chain_add_map(chain, step, count, parameters, map)
+    return ccall(wfpsf_chain_add_map_pointer[], Int32, (Ptr{Cvoid}, Int32, Int64, Ptr{Float64},
+        Ptr{Cvoid}),
+        chain, step, count, parameters, map)
+end
+
+const wfpsf_chain_step_pointer = Ref(C_NULL)
+function wfpsf_chain_step(chain, index, capacity, parameters, count, step)
+    return ccall(wfpsf_chain_step_pointer[], Int32, (Ptr{Cvoid}, Int64, Int64, Ptr{Float64},
+        Ptr{Int64}, Ptr{Int32}),
+        chain, index, capacity, parameters, count, step)
+end
+
+const wfpsf_step_name_pointer = Ref(C_NULL)
+function wfpsf_step_name(step)
+    return ccall(wfpsf_step_name_pointer[], Cstring, (Int32,),
+        step)
+end
+
+const wfpsf_chain_apply_pointer = Ref(C_NULL)
+function wfpsf_chain_apply(chain, image, previous_count, previous, options, not_finite, saturated)
+    return ccall(wfpsf_chain_apply_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int64,
+        Ptr{Ptr{Cvoid}}, Ptr{Cvoid}, Ptr{Int64}, Ptr{Int64}),
+        chain, image, previous_count, previous, options, not_finite, saturated)
+end
+
+const wfpsf_noise_add_pointer = Ref(C_NULL)
+function wfpsf_noise_add(image, rms, kernel, options)
+    return ccall(wfpsf_noise_add_pointer[], Int32, (Ptr{Cvoid}, Float64, Ptr{Cvoid}, Ptr{Cvoid}),
+        image, rms, kernel, options)
+end
+
+# sky.h
+const wfpsf_sky_level_pointer = Ref(C_NULL)
+function wfpsf_sky_level(instrument, band, longitude, latitude, level)
+    return ccall(wfpsf_sky_level_pointer[], Int32, (Ptr{Cvoid}, Cstring, Float64, Float64,
+        Ptr{Float64}),
+        instrument, band, longitude, latitude, level)
+end
+
+const wfpsf_sky_background_pointer = Ref(C_NULL)
+function wfpsf_sky_background(instrument, band, longitude, latitude, exposure_time, pixel_area,
+    electrons)
+    return ccall(wfpsf_sky_background_pointer[], Int32, (Ptr{Cvoid}, Cstring, Float64, Float64,
+        Float64, Float64, Ptr{Float64}),
+        instrument, band, longitude, latitude, exposure_time, pixel_area, electrons)
 end
 
 # moments.h
@@ -814,9 +1024,31 @@ const pointers = [
     :wfpsf_ipc_kernel_create_default => wfpsf_ipc_kernel_create_default_pointer,
     :wfpsf_ipc_kernel_create_correction => wfpsf_ipc_kernel_create_correction_pointer,
     :wfpsf_ipc_kernel_create_flipped => wfpsf_ipc_kernel_create_flipped_pointer,
+    :wfpsf_ipc_kernel_read_fits => wfpsf_ipc_kernel_read_fits_pointer,
+    :wfpsf_ipc_kernel_create_composed => wfpsf_ipc_kernel_create_composed_pointer,
+    :wfpsf_ipc_kernel_create_neumann => wfpsf_ipc_kernel_create_neumann_pointer,
+    :wfpsf_ipc_kernel_create_autocorrelation => wfpsf_ipc_kernel_create_autocorrelation_pointer,
+    :wfpsf_ipc_wfc3_deviations => wfpsf_ipc_wfc3_deviations_pointer,
     :wfpsf_ipc_kernel_destroy => wfpsf_ipc_kernel_destroy_pointer,
     :wfpsf_ipc_kernel_taps => wfpsf_ipc_kernel_taps_pointer,
+    :wfpsf_ipc_kernel_get => wfpsf_ipc_kernel_get_pointer,
+    :wfpsf_ipc_kernel_transform => wfpsf_ipc_kernel_transform_pointer,
     :wfpsf_ipc_apply => wfpsf_ipc_apply_pointer,
+    :wfpsf_ipc_kernel_self_test => wfpsf_ipc_kernel_self_test_pointer,
+    :wfpsf_ipc_correct => wfpsf_ipc_correct_pointer,
+    :wfpsf_ipc_covariance => wfpsf_ipc_covariance_pointer,
+    :wfpsf_chain_create => wfpsf_chain_create_pointer,
+    :wfpsf_chain_create_default => wfpsf_chain_create_default_pointer,
+    :wfpsf_chain_destroy => wfpsf_chain_destroy_pointer,
+    :wfpsf_chain_add => wfpsf_chain_add_pointer,
+    :wfpsf_chain_add_ipc => wfpsf_chain_add_ipc_pointer,
+    :wfpsf_chain_add_map => wfpsf_chain_add_map_pointer,
+    :wfpsf_chain_step => wfpsf_chain_step_pointer,
+    :wfpsf_step_name => wfpsf_step_name_pointer,
+    :wfpsf_chain_apply => wfpsf_chain_apply_pointer,
+    :wfpsf_noise_add => wfpsf_noise_add_pointer,
+    :wfpsf_sky_level => wfpsf_sky_level_pointer,
+    :wfpsf_sky_background => wfpsf_sky_background_pointer,
     :wfpsf_moments_measure => wfpsf_moments_measure_pointer,
     :wfpsf_moments_measure_unweighted => wfpsf_moments_measure_unweighted_pointer,
     :wfpsf_moments_destroy => wfpsf_moments_destroy_pointer,

@@ -33,7 +33,10 @@ export WfpsfError, options,
     SED, power_law, black_body, redshifted, photon_density,
     PSF, psfs, draw, draw!, add_stars!, add_bright_star!, draw_memory, convolve!,
     OTF, otf_grid,
-    IPCKernel, wfc3_kernel, correction, flipped, taps, apply_ipc, apply_ipc!,
+    IPCKernel, wfc3_kernel, wfc3_deviations, read_kernel, correction, flipped, compose,
+    autocorrelation, taps, properties, transform, self_test, apply_ipc, apply_ipc!, correct_ipc!,
+    covariance,
+    Chain, add!, steps, apply_chain!, add_noise!, sky_level, sky_background,
     Moments, adaptive_moments, unweighted_moments,
     encircled_energy, ee_radius, fwhm
 
@@ -53,6 +56,7 @@ include("sed.jl")
 include("psf.jl")
 include("otf.jl")
 include("ipc.jl")
+include("chain.jl")
 include("moments.jl")
 include("size.jl")
 

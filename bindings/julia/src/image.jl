@@ -17,7 +17,7 @@ appears in `image.pixels`, the matrix itself. The second form makes zeros of typ
 Size `(nx, ny)`: `pixels[x, y]`, x along the first axis; the centre of the first pixel is (1, 1),
 that of the image ((nx+1)/2, (ny+1)/2). `oversampling` is the number of samples per native detector
 pixel along each axis; "pixels of the image" are its samples. `applied` lists the effects that the
-image has been through (`:pixel_response`, `:ipc`, `:ipc_correction`), so that none is applied
+image has been through (`:pixel_response`, `:ipc`, `:ipc_correction`, `:read_noise`, ...), so that none is applied
 twice.
 """
 mutable struct Image{T<:PixelType,A<:StridedMatrix{T}} <: Handle

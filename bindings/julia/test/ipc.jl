@@ -32,7 +32,6 @@ end
     @test_throws ArgumentError apply_ipc(kernel, image; edge = :mirror)
     @test status_of(() -> apply_ipc(kernel, result)) == LibWfpsf.WFPSF_ERROR_ALREADY_APPLIED
     @test apply_ipc(kernel, result; force = true) isa Image
-    @test status_of(() -> apply_ipc!(image, kernel, image)) == LibWfpsf.WFPSF_ERROR_OVERLAP
 
     corrected = apply_ipc(correction(kernel), result)
     @test record(corrected).applied == [:ipc, :ipc_correction]
@@ -40,3 +39,24 @@ end
 
 @test status_of(() -> IPCKernel(0.5)) == LibWfpsf.WFPSF_ERROR_KERNEL
 @test IPCKernel(0.5; kernel_negative = true) isa IPCKernel
+
+@testset "algebra and correction" begin
+    kernel = IPCKernel(0.02, 0.002, 0.001)
+    @test properties(kernel).margin ≈ 1 - 8 * 0.02
+    @test properties(kernel).variance_ratio ≈ taps(autocorrelation(kernel))[3, 3]
+    @test transform(kernel, 0.5, 0.5) ≈ 1 - 8 * 0.02
+    @test transform(compose(kernel, correction(kernel, 2)), 0.5, 0.5) ≈ 1 - 0.16^3
+    @test self_test(kernel) ≈ taps(kernel)
+    @test size(wfc3_deviations()) == (3, 3)
+    image = Image(rand(15, 12))
+    seen = apply_ipc(kernel, image; edge = :replicate)
+    result = correct_ipc!(seen, kernel, seen; edge = :replicate, threads = 2)
+    @test seen.pixels ≈ image.pixels
+    @test result.residual < 1e-14 && result.not_finite == 0
+    @test covariance(kernel, Image(ones(9, 9))).pixels[5, 5] ≈ properties(kernel).variance_ratio
+    @test status_of(() -> correct_ipc!(image, IPCKernel(0.12499), image)) ==
+          LibWfpsf.WFPSF_ERROR_KERNEL_SINGULAR
+    path = joinpath(mktempdir(), "kernel.fits")
+    write_fits(path, Image(taps(wfc3_kernel())))
+    @test taps(read_kernel(path)) == taps(wfc3_kernel())
+end

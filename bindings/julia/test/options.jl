@@ -7,7 +7,8 @@ known = Dict(option.name => option for option in options())
 @test occursin("first pixel at 1", known[:moments_guess_x].text)
 
 # Every option is taken by some function, and no function takes an unknown one.
-taken = (Wfpsf.PSF_OPTIONS..., Wfpsf.STAR_OPTIONS..., Wfpsf.MOMENTS_OPTIONS..., Wfpsf.SIZE_OPTIONS..., :kernel_negative,
+taken = (Wfpsf.PSF_OPTIONS..., Wfpsf.STAR_OPTIONS..., Wfpsf.MOMENTS_OPTIONS..., Wfpsf.SIZE_OPTIONS..., Wfpsf.CORRECT_OPTIONS...,
+         Wfpsf.CHAIN_OPTIONS..., :kernel_negative,
          :kernel_normalise, :ipc_fill, :fits_overwrite)
 @test issetequal(taken, (keys(known)..., :zernikes, :opd, :progress))
 

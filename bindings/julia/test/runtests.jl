@@ -24,7 +24,7 @@ end
 @testset "Wfpsf" begin
     @testset "$subject" for subject in ("handle", "options", "instrument", "design", "image",
                                         "interleave", "sed", "psf", "colours", "otf", "ipc",
-                                        "moments", "size")
+                                        "chain", "moments", "size")
         include("$subject.jl")
     end
 end

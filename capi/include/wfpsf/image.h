@@ -29,7 +29,22 @@ typedef struct wfpsf_image wfpsf_image;
 enum { WFPSF_FLOAT32 = 32, WFPSF_FLOAT64 = 64 };
 
 /** Effects that an image can record as applied; the record is their sum. */
-enum { WFPSF_EFFECT_PIXEL_RESPONSE = 1, WFPSF_EFFECT_IPC = 2, WFPSF_EFFECT_IPC_CORRECTION = 4 };
+enum {
+    WFPSF_EFFECT_PIXEL_RESPONSE = 1,
+    WFPSF_EFFECT_IPC = 2,
+    WFPSF_EFFECT_IPC_CORRECTION = 4,
+    WFPSF_EFFECT_CHARGE_DIFFUSION = 8,
+    WFPSF_EFFECT_BACKGROUND = 16,
+    WFPSF_EFFECT_POISSON_NOISE = 32,
+    WFPSF_EFFECT_RECIPROCITY_FAILURE = 64,
+    WFPSF_EFFECT_DARK_CURRENT = 128,
+    WFPSF_EFFECT_PERSISTENCE = 256,
+    WFPSF_EFFECT_NONLINEARITY = 512,
+    WFPSF_EFFECT_NONLINEARITY_CORRECTION = 1024,
+    WFPSF_EFFECT_CAPACITANCE = 2048,
+    WFPSF_EFFECT_READ_NOISE = 4096,
+    WFPSF_EFFECT_GAIN = 8192
+};
 
 /** How the offsets of a dither are counted (wfpsf_image_interleave). */
 enum {

@@ -56,6 +56,13 @@ enum { WFPSF_OPTION_REAL = 1, WFPSF_OPTION_INTEGER = 2 };
     X(KERNEL_NEGATIVE, 220, INTEGER, 0, 0, 1,                                                      \
       "1: taps outside [0, 1] are allowed, as correction kernels need")                            \
     X(KERNEL_NORMALISE, 230, INTEGER, 0, 0, 1, "1: taps are divided by their sum")                 \
+    X(IPC_FORM, 240, INTEGER, 0, 0, 1,                                                             \
+      "0: scatter, a convolution with the kernel; 1: gather, a correlation")                       \
+    X(IPC_LEAST_MARGIN, 250, REAL, 1e-3, 0, 1,                                                     \
+      "min |K^| below which an exact correction is refused")                                       \
+    X(IPC_TOLERANCE, 260, REAL, 1e-15, 1e-16, 0.1,                                                 \
+      "residual of an exact correction to stop at, over the largest pixel")                        \
+    X(IPC_MAX_PASSES, 270, INTEGER, 1000, 1, 1000000, "most passes of an exact correction")        \
     X(MOMENTS_TOLERANCE, 300, REAL, 1e-8, 1e-12, 1e-2,                                             \
       "largest whitened error of centroid and moments")                                            \
     X(MOMENTS_MAX_PASSES, 310, INTEGER, 200, 1, 100000, "most passes over the image")              \
@@ -71,7 +78,14 @@ enum { WFPSF_OPTION_REAL = 1, WFPSF_OPTION_INTEGER = 2 };
     X(FITS_OVERWRITE, 500, INTEGER, 0, 0, 1, "1: replace an existing file")                        \
     X(THREADS, 600, INTEGER, 1, 1, 1024, "threads that a call may use, the caller's among them")   \
     X(MEMORY_LIMIT, 610, REAL, 4294967296.0, 1e3, 1e15,                                            \
-      "bytes that a call may take, about, beside the caller's own images")
+      "bytes that a call may take, about, beside the caller's own images")                         \
+    X(SEED, 700, INTEGER, 0, 0, 9007199254740991, "seed of the random numbers")                    \
+    X(STREAM, 710, INTEGER, 0, 0, 4294967295, "stream of the seed, such as an exposure's number")  \
+    X(ORIGIN_X, 720, INTEGER, 0, -2147483648, 2147483647,                                          \
+      "column of the detector that an image's first pixel is in")                                  \
+    X(ORIGIN_Y, 730, INTEGER, 0, -2147483648, 2147483647,                                          \
+      "row of the detector that an image's first pixel is in")                                     \
+    X(NOISE, 740, INTEGER, 1, 0, 1, "0: a chain adds means alone, no Poisson and read noise")
 
 #define WFPSF_OPTION_ENUM(name, key, kind, standard, smallest, largest, text)                      \
     WFPSF_OPTION_##name = (key),

@@ -6,6 +6,7 @@
 #ifndef WFPSF_H
 #define WFPSF_H
 
+#include <wfpsf/chain.h>
 #include <wfpsf/design.h>
 #include <wfpsf/image.h>
 #include <wfpsf/instrument.h>
@@ -16,6 +17,7 @@
 #include <wfpsf/psf.h>
 #include <wfpsf/sed.h>
 #include <wfpsf/size.h>
+#include <wfpsf/sky.h>
 #include <wfpsf/status.h>
 #include <wfpsf/varying_psf.h>
 #include <wfpsf/version.h>

@@ -2,7 +2,9 @@
 // Roman's Wide Field Instrument, Cycle 9. One table a file.
 #pragma once
 
+#include "instrument/detector.hpp"
 #include "instrument/instrument.hpp"
+#include "instrument/sky.hpp"
 
 namespace wfpsf::roman_c9 {
 
@@ -11,6 +13,8 @@ Instrument instrument();
 std::span<const Constant> constants();
 std::span<const Band> bands();
 std::span<const FieldPoint> field_points();
+std::span<const SkyCurve> sky();
+DetectorFigures detector();
 std::span<const Pupil> pupils(); // by mask, then by SCA
 
 inline constexpr double collecting_area_cm2 = 37570;

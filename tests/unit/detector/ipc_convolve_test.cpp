@@ -105,7 +105,7 @@ Plane<T> convolved(const IpcKernel &kernel, View<const T> in, Edge edge, int64_t
     const int64_t trim = edge == Edge::valid ? 2 * tap_step : 0;
     Plane<T> out(std::max<int64_t>(in.nx - trim * kernel.reach_x(), 0),
                  std::max<int64_t>(in.ny - trim * kernel.reach_y(), 0));
-    convolve(kernel, in, edge, fill_value, tap_step, out.view());
+    convolve(kernel, in, {edge, fill_value, tap_step}, out.view());
     return out;
 }
 
@@ -125,7 +125,7 @@ template <class T> void compare_with_brute_force(const IpcKernel &kernel) {
                     const Strided<T> out(std::max<int64_t>(size.nx - 2 * x0, 0),
                                          std::max<int64_t>(size.ny - 2 * y0, 0),
                                          (kind + 1) % Strided<T>::kinds);
-                    convolve(kernel, in.view, edge, fill_value, tap_step, out.view);
+                    convolve(kernel, in.view, {edge, fill_value, tap_step}, out.view);
                     for (int64_t y = 0; y < out.view.ny; ++y)
                         for (int64_t x = 0; x < out.view.nx; ++x)
                             ASSERT_NEAR(out.view(x, y),
@@ -273,6 +273,74 @@ TEST(IpcConvolve, OnePassEqualsTheInterleaveOfNativeImages) {
     }
 }
 
+template <class T> void compare_ways(int64_t nx, int64_t ny, int64_t tap_step) {
+    const IpcKernel kernel = asymmetric(5, 3);
+    for (const Edge edge : {Edge::zero, Edge::replicate, Edge::wrap, Edge::crop, Edge::fill}) {
+        Plane<T> in(nx, ny);
+        fill_with_waves(in.view());
+        const Plane<T> expected = convolved<T>(kernel, in.view(), edge, tap_step);
+        for (const int threads : {1, 2, 5}) {
+            for (const bool flipped : {false, true}) {
+                Plane<T> apart(nx, ny), both = in;
+                convolve(kernel, in.view(), {edge, fill_value, tap_step, threads}, apart.view());
+                const View<T> place =
+                    flipped ? View<T>{&both(nx - 1, 0), nx, ny, -1, nx} : both.view();
+                for (int64_t y = 0; flipped && y < ny; ++y)
+                    for (int64_t x = 0; x < nx; ++x)
+                        place(x, y) = in(x, y);
+                convolve(kernel, place, {edge, fill_value, tap_step, threads}, place);
+                for (int64_t y = 0; y < ny; ++y)
+                    for (int64_t x = 0; x < nx; ++x) {
+                        ASSERT_EQ(apart(x, y), expected(x, y));
+                        ASSERT_EQ(place(x, y), expected(x, y))
+                            << nx << " x " << ny << ", edge " << static_cast<int>(edge) << ", step "
+                            << tap_step << ", threads " << threads << ", at " << x << ", " << y;
+                    }
+            }
+        }
+    }
+}
+
+TEST(IpcConvolve, InPlaceAndOnManyThreadsGivesTheSameBits) {
+    for (const int64_t tap_step : {1, 2, 3, 7, 100}) {
+        compare_ways<double>(23, 17, tap_step);
+        compare_ways<double>(1, 9, tap_step);
+        compare_ways<double>(2, 1, tap_step);
+        compare_ways<float>(600, 9, tap_step);
+    }
+}
+
+TEST(IpcConvolve, AWholeDetectorAndMoreKeepsItsCharge) {
+    constexpr int64_t n = 8192;
+    Plane<float> image(n, n);
+    for (int64_t i = 0; i < n; ++i)
+        image(i, (i * i) % n) = 1024;
+    convolve(IpcKernel::parametric(0.02, 0.002, 0.001), image.view(),
+             {.edge = Edge::wrap, .threads = 2}, image.view());
+    double sum = 0;
+    for (int64_t y = 0; y < n; ++y)
+        for (int64_t x = 0; x < n; ++x)
+            sum += static_cast<double>(image(x, y));
+    EXPECT_NEAR(sum / (1024.0 * n), 1, 1e-7);
+}
+
+TEST(IpcConvolve, HugeNegativeAndInfinitePixelsStayWhatTheyAre) {
+    const IpcKernel kernel = IpcKernel::parametric(0.02, 0.002);
+    Plane<float> in(9, 9), out(9, 9);
+    for (int64_t y = 0; y < 9; ++y)
+        for (int64_t x = 0; x < 9; ++x)
+            in(x, y) = -1e30F;
+    in(1, 1) = std::numeric_limits<float>::infinity();
+    convolve(kernel, in.view(), {.edge = Edge::replicate}, out.view());
+    for (int64_t y = 0; y < 9; ++y)
+        for (int64_t x = 0; x < 9; ++x) {
+            if (x <= 2 && y <= 2)
+                EXPECT_EQ(out(x, y), std::numeric_limits<float>::infinity());
+            else
+                EXPECT_FLOAT_EQ(out(x, y), -1e30F);
+        }
+}
+
 TEST(IpcConvolve, ZeroTapsDoNotSpreadNaN) {
     Plane<double> in(7, 7);
     in(3, 3) = std::numeric_limits<double>::quiet_NaN();
@@ -287,8 +355,8 @@ TEST(IpcConvolve, ZeroTapsDoNotSpreadNaN) {
 
 TEST(IpcConvolve, FillMayBeNaN) {
     Plane<float> in(4, 4), out(4, 4);
-    convolve(IpcKernel::parametric(0.02), in.view(), Edge::fill,
-             std::numeric_limits<double>::quiet_NaN(), 1, out.view());
+    convolve(IpcKernel::parametric(0.02), in.view(),
+             {Edge::fill, std::numeric_limits<double>::quiet_NaN()}, out.view());
     EXPECT_TRUE(std::isnan(out(0, 2)));
     EXPECT_EQ(out(1, 2), 0);
 }
@@ -308,7 +376,7 @@ TEST(IpcConvolve, RefusesBadArguments) {
     const IpcKernel kernel = IpcKernel::parametric(0.02);
     const auto status_of = [&](Edge edge, double fill, int64_t tap_step, View<double> to) {
         try {
-            convolve(kernel, pixels.view(), edge, fill, tap_step, to);
+            convolve(kernel, pixels.view(), {edge, fill, tap_step}, to);
         } catch (const Error &error) {
             return error.status();
         }
@@ -322,10 +390,10 @@ TEST(IpcConvolve, RefusesBadArguments) {
     EXPECT_EQ(status_of(Edge::valid, 0, 3, {&out(0, 0), 2, 2, 1, 2}), WFPSF_OK);
     EXPECT_EQ(status_of(Edge::valid, 0, 4, {&out(0, 0), 0, 0, 1, 1}), WFPSF_OK);
     EXPECT_EQ(status_of(Edge::valid, 0, std::numeric_limits<int64_t>::max(), {}), WFPSF_OK);
-    EXPECT_EQ(status_of(Edge::zero, 0, 1, pixels.view()), WFPSF_ERROR_OVERLAP);
+    EXPECT_EQ(status_of(Edge::zero, 0, 1, {&pixels(7, 7), 8, 8, -1, -8}), WFPSF_ERROR_OVERLAP);
 
     Plane<float> in_float(2, 2), out_float(2, 2);
-    EXPECT_THROW(convolve(kernel, in_float.view(), Edge::fill, 1e39, 1, out_float.view()), Error);
+    EXPECT_THROW(convolve(kernel, in_float.view(), {Edge::fill, 1e39}, out_float.view()), Error);
 }
 
 // Figures of GalSim 2.8.4's Image.applyIPC, which is a correlation, so the kernel is flipped.

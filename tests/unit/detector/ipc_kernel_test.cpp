@@ -150,6 +150,85 @@ TEST(IpcKernel, RefusesWhatIsNoKernel) {
         });
 }
 
+TEST(IpcKernel, MarginsOfTheParametricKernelsAreClosedForms) {
+    const auto expect_margin = [](const IpcKernel &kernel, double value, double fx, double fy) {
+        const StabilityMargin margin = kernel.margin();
+        EXPECT_NEAR(margin.value, value, 1e-15);
+        EXPECT_NEAR(std::fabs(margin.frequency_x), fx, 1e-8);
+        EXPECT_NEAR(std::fabs(margin.frequency_y), fy, 1e-8);
+    };
+    expect_margin(IpcKernel::parametric(0.02, 0.002), 1 - 8 * 0.02, 0.5, 0.5);
+    EXPECT_NEAR(IpcKernel::parametric(0.01, 0.02).margin().value, 1 - 4 * 0.01 - 8 * 0.02, 1e-15);
+    expect_margin(IpcKernel::parametric(0.01, 0.02, 0.002), 1 - 4 * 0.012 - 8 * 0.02, 0.5, 0);
+    for (const double margin : {1e-3, 1e-6, 1e-12})
+        expect_margin(IpcKernel::parametric((1 - margin) / 8), margin, 0.5, 0.5);
+    // A minimum between the points of any grid: K^ = (1 - 2b) + 2b cos(2 pi 3f) is least at 1/6.
+    const double taps[7] = {0.1, 0, 0, 0.8, 0, 0, 0.1};
+    const StabilityMargin row = IpcKernel::from_table({taps, 7, 1, 1, 7}).margin();
+    EXPECT_NEAR(row.value, 0.6, 1e-15);
+    EXPECT_NEAR(std::fabs(std::remainder(3 * row.frequency_x, 1.0)), 0.5, 1e-7);
+}
+
+TEST(IpcKernel, AlgebraIsProductsOfTransforms) {
+    const double taps[15] = {0.01, 0.02, 0.03, 0.04, 0.05, 0.06, 0.07, 0.44,
+                             0.08, 0.09, 0.03, 0.02, 0.01, 0.02, 0.03};
+    const IpcKernel a = IpcKernel::from_table({taps, 5, 3, 1, 5}),
+                    b = IpcKernel::parametric(0.02, 0.003, 0.001);
+    for (const double fx : {0.0, 0.13, 0.5})
+        for (const double fy : {-0.37, 0.0, 0.25}) {
+            const std::complex<double> ta = a.transform(fx, fy), tb = b.transform(fx, fy);
+            std::complex<double> direct = 0;
+            for (int64_t dy = -1; dy <= 1; ++dy)
+                for (int64_t dx = -2; dx <= 2; ++dx)
+                    direct += a(dx, dy) * std::polar(1.0, -2 * M_PI *
+                                                              (fx * static_cast<double>(dx) +
+                                                               fy * static_cast<double>(dy)));
+            EXPECT_NEAR(std::abs(ta - direct), 0, 1e-15);
+            EXPECT_NEAR(std::abs(a.composed(b).transform(fx, fy) - ta * tb), 0, 1e-15);
+            EXPECT_NEAR(std::abs(a.autocorrelation().transform(fx, fy) - std::norm(ta)), 0, 1e-15);
+            std::complex<double> series = 0;
+            for (int n = 0; n < 5; ++n) {
+                series += std::pow(1.0 - tb, n);
+                EXPECT_NEAR(std::abs(b.neumann_correction(n).transform(fx, fy) - series), 0, 2e-15);
+            }
+        }
+    EXPECT_NEAR(a.autocorrelation()(0, 0), a.sum_of_squares(), 1e-16);
+    for (int64_t dy = -1; dy <= 1; ++dy)
+        for (int64_t dx = -1; dx <= 1; ++dx)
+            EXPECT_NEAR(b.neumann_correction(1)(dx, dy), b.first_order_correction()(dx, dy), 1e-16);
+    EXPECT_NEAR(a.composed(b).moments().xx, a.moments().xx + b.moments().xx, 1e-15);
+}
+
+// Order n leaves an error of order n + 1 in the coupling.
+TEST(IpcKernel, NeumannConvergesAsItsOrder) {
+    const IpcKernel kernel = IpcKernel::parametric(0.02, 0.002);
+    for (int order = 0; order < 8; ++order) {
+        const IpcKernel rest = kernel.neumann_correction(order).composed(kernel);
+        EXPECT_NEAR(rest.transform(0.5, 0.5).real(), 1 - std::pow(8 * 0.02, order + 1), 1e-14);
+    }
+}
+
+TEST(IpcKernel, AsymmetryIsMeasured) {
+    const KernelAsymmetry none = IpcKernel::parametric(0.02, 0.002).asymmetry();
+    EXPECT_EQ(none.left_right + none.up_down + none.half_turn + none.transposed, 0);
+    const KernelAsymmetry plus = IpcKernel::parametric(0.02, 0.002, 0.003).asymmetry();
+    EXPECT_EQ(plus.left_right + plus.up_down + plus.half_turn, 0);
+    EXPECT_NEAR(plus.transposed, 0.006, 1e-16);
+    const KernelAsymmetry wfc3 = IpcKernel::wfc3().asymmetry();
+    EXPECT_NEAR(wfc3.left_right, 0.0001 / 0.9985, 1e-16);
+    EXPECT_EQ(wfc3.up_down, 0);
+    const double row[3] = {0.1, 0.8, 0.1};
+    EXPECT_EQ(IpcKernel::from_table({row, 3, 1, 1, 3}).asymmetry().transposed, HUGE_VAL);
+}
+
+TEST(IpcKernel, Wfc3AgreesWithTheParametersWithinItsDeviations) {
+    const auto deviation = wfc3_uncertainties();
+    const IpcKernel wfc3 = IpcKernel::wfc3(), model = IpcKernel::parametric(0.0146, 0.0011, 0.0018);
+    for (int64_t i = 0; i < 9; ++i)
+        EXPECT_LE(std::fabs(wfc3(i % 3 - 1, i / 3 - 1) - model(i % 3 - 1, i / 3 - 1)),
+                  deviation[static_cast<size_t>(i)]);
+}
+
 TEST(IpcKernel, NormalisedSumIsOneToRounding) {
     std::vector<double> taps(101 * 101);
     for (size_t i = 0; i < taps.size(); ++i)
