@@ -130,6 +130,17 @@ module wfpsf
         final :: psf_finalize
     end type wfpsf_psf
 
+    ! The PSF all over a detector.
+    type, extends(handle) :: wfpsf_varying_psf
+    contains
+        procedure :: create => varying_psf_create
+        procedure :: destroy => varying_psf_destroy
+        procedure :: at => varying_psf_at
+        procedure :: add_stars => varying_psf_add_stars
+        procedure :: get => varying_psf_get
+        final :: varying_psf_finalize
+    end type wfpsf_varying_psf
+
     ! A PSF in k space.
     type, extends(handle) :: wfpsf_otf
     contains
@@ -882,6 +893,65 @@ module wfpsf
         impure elemental module subroutine psf_finalize(self)
             type(wfpsf_psf), intent(inout) :: self
         end subroutine psf_finalize
+    end interface
+
+    ! The PSF all over a detector.
+    private :: varying_psf_create, varying_psf_destroy, varying_psf_at, varying_psf_add_stars, &
+        varying_psf_get, varying_psf_finalize
+    interface
+        ! Of one colour, by its wavelength or the band's effective one, or of an SED's; options as
+        ! for PSFs.
+        module subroutine varying_psf_create(self, instrument, band, sca, wavelength_nm, sed, &
+                options, stat, errmsg)
+            class(wfpsf_varying_psf), intent(inout) :: self
+            type(wfpsf_instrument), intent(in) :: instrument
+            character(len=*), intent(in) :: band
+            integer, intent(in) :: sca
+            real(real64), intent(in), optional :: wavelength_nm
+            type(wfpsf_sed), intent(in), optional :: sed
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine varying_psf_create
+
+        module subroutine varying_psf_destroy(self)
+            class(wfpsf_varying_psf), intent(inout) :: self
+        end subroutine varying_psf_destroy
+
+        ! The PSF at (x, y), pixels of the detector.
+        module subroutine varying_psf_at(self, x, y, psf, stat, errmsg)
+            class(wfpsf_varying_psf), intent(in) :: self
+            real(real64), intent(in) :: x, y
+            type(wfpsf_psf), intent(inout) :: psf
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine varying_psf_at
+
+        ! As the PSF's, each star with the PSF of its own place; the centre of the image's first
+        ! native pixel stands at (x0, y0) of the detector.
+        module subroutine varying_psf_add_stars(self, x0, y0, x, y, flux, image, options, stat, &
+                errmsg)
+            class(wfpsf_varying_psf), intent(in) :: self
+            real(real64), intent(in) :: x0, y0
+            real(real64), intent(in), contiguous :: x(:), y(:), flux(:)
+            type(wfpsf_image), intent(inout) :: image
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine varying_psf_add_stars
+
+        ! key: wfpsf_varying_psf_*.
+        module subroutine varying_psf_get(self, key, value, stat, errmsg)
+            class(wfpsf_varying_psf), intent(in) :: self
+            integer, intent(in) :: key
+            real(real64), intent(inout) :: value
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine varying_psf_get
+
+        impure elemental module subroutine varying_psf_finalize(self)
+            type(wfpsf_varying_psf), intent(inout) :: self
+        end subroutine varying_psf_finalize
     end interface
 
     ! Optical transfer functions.

@@ -41,6 +41,7 @@ program test_colours
     call options%set(wfpsf_option_psf_radius, 6.0_real64)
     call makes_seds()
     call makes_one_psf()
+    call makes_a_varying_psf()
     call makes_several_psfs()
     call blurs()
     call shows_progress()
@@ -125,6 +126,37 @@ contains
         call psf%create_chromatic(roman, "J129", 3, 1.0_real64, 1.0_real64, none, stat=stat)
         call expect(stat == wfpsf_error_null, "no SED")
     end subroutine makes_one_psf
+
+    ! All over a detector: the PSF at a place, and a star that has it.
+    subroutine makes_a_varying_psf()
+        real(real64), target :: exact(11, 11), model(11, 11), star(11, 11)
+        type(wfpsf_varying_psf) :: varying
+        type(wfpsf_sed) :: flat
+        type(wfpsf_image) :: image
+        type(wfpsf_psf) :: psf
+        real(real64) :: value
+        integer :: stat
+
+        call psf%create_in_band(roman, "J129", 3, 100.0_real64, 4000.0_real64, 1300.0_real64, &
+            options)
+        call draw(psf, exact)
+        call varying%create(roman, "J129", 3, wavelength_nm=1300.0_real64, options=options)
+        call varying%at(100.0_real64, 4000.0_real64, psf)
+        call draw(psf, model)
+        call expect(maxval(abs(model - exact)) < 2 * eps * maxval(exact), "at a place")
+        call varying%get(wfpsf_varying_psf_rank, value)
+        call expect(value > 1, "its rank")
+        star = 0
+        call image%wrap(star, 1)
+        call varying%add_stars(94.9_real64, 3995.2_real64, [6.1_real64], [5.8_real64], &
+            [1.0_real64], image)
+        call expect(maxval(abs(star - model)) < 1e-12_real64, "a star of its own place")
+        call varying%at(9000.0_real64, 1.0_real64, psf, stat)
+        call expect(stat == wfpsf_error_range .and. psf%is_empty(), "beside the detector")
+        call flat%create_power_law(wfpsf_sed_photons, 0.0_real64)
+        call varying%create(roman, "J129", 3, 1300.0_real64, flat, options, stat)
+        call expect(stat == wfpsf_error_argument .and. varying%is_empty(), "two colours at once")
+    end subroutine makes_a_varying_psf
 
     subroutine makes_several_psfs()
         type(wfpsf_sed) :: seds(2)

@@ -32,6 +32,7 @@ export WfpsfError, options,
     interleave, interleave!, deinterleave, deinterleave!,
     SED, power_law, black_body, redshifted, photon_density,
     PSF, psfs, draw, draw!, add_stars!, add_bright_star!, draw_memory, convolve!,
+    VaryingPSF,
     OTF, otf_grid,
     IPCKernel, wfc3_kernel, wfc3_deviations, read_kernel, correction, flipped, compose,
     autocorrelation, taps, properties, transform, self_test, apply_ipc, apply_ipc!, correct_ipc!,
@@ -54,6 +55,7 @@ include("interleave.jl")
 include("pupil.jl")
 include("sed.jl")
 include("psf.jl")
+include("varying_psf.jl")
 include("otf.jl")
 include("ipc.jl")
 include("chain.jl")

@@ -2,7 +2,8 @@
 
 const PSF_PROPERTIES = constants_of("WFPSF_PSF_")
 const PSF_OPTIONS = (:eps, :struts, :psf_radius, :piston_tilt, :frame, :field_rule, :jitter_xx,
-                     :jitter_xy, :jitter_yy, :charge_diffusion, :zernikes, :opd, :memory_limit,
+                     :jitter_xy, :jitter_yy, :charge_diffusion, :mask_points, :zernikes, :opd,
+                     :memory_limit,
                      :progress)
 const STAR_OPTIONS = (:threads, :force)
 const DRAW_OPTIONS = (:memory_limit, :progress)

@@ -23,8 +23,8 @@ end
 
 @testset "Wfpsf" begin
     @testset "$subject" for subject in ("handle", "options", "instrument", "design", "image",
-                                        "interleave", "sed", "psf", "colours", "otf", "ipc",
-                                        "chain", "moments", "size")
+                                        "interleave", "sed", "psf", "colours", "varying_psf",
+                                        "otf", "ipc", "chain", "moments", "size")
         include("$subject.jl")
     end
 end
