@@ -82,7 +82,7 @@ Case large_case(int64_t n, double eps) {
             const Psf psf(make_aperture(pupil), Wavefront({}, 1.18),
                           {wavelength, pixel_scale, eps, 8});
             const double star = static_cast<double>(n / 2) + 0.23;
-            Plane<float> image(n, n);
+            Plane<double> image(n, n);
             Measured m;
             m.timing = time([&] { psf.draw({star, star, 1}, 1, image.view()); }, n > 1024 ? 1 : 3);
             const oracle::Intensity truth = oracle::airy(pupil, wavelength);

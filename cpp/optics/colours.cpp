@@ -25,8 +25,8 @@ double brightness(double path, double wavelength) {
     return 1 / (1 + phase * phase);
 }
 
-FringeErrors::FringeErrors(const WavelengthRule &rule, const Spectrum &spectrum,
-                           double longest_path)
+FringeErrors::FringeErrors(const WavelengthRule &rule, const std::vector<double> &weights,
+                           const Spectrum &spectrum, double longest_path)
     // An eighth of a turn over half the range of 1 / wavelength.
     : step_(1 / (8 * rule.half_range())), worst_(static_cast<size_t>(longest_path / step_) + 2) {
     std::vector<std::complex<double>> sum(worst_.size());
@@ -40,7 +40,6 @@ FringeErrors::FringeErrors(const WavelengthRule &rule, const Spectrum &spectrum,
     };
     for (size_t i = 0; i < spectrum.size(); ++i)
         add(spectrum.wavelength[i], spectrum.weight[i]);
-    const std::vector<double> weights = rule.weights(spectrum);
     for (size_t k = 0; k < rule.size(); ++k)
         add(rule.wavelengths()[k], -weights[k]);
     for (size_t i = 1; i < sum.size(); ++i)
@@ -65,7 +64,9 @@ ColourChoice choose_wavelengths(const Spectrum &spectrum, double longest_path, d
     for (auto n = static_cast<size_t>(3 + turns / 6);; n += 1 + n / 16) {
         WavelengthRule rule(spectrum, n);
         const double error =
-            rule.exact() ? 0 : FringeErrors(rule, spectrum, longest_path).of_image(blue);
+            rule.exact()
+                ? 0
+                : FringeErrors(rule, rule.own_weights(), spectrum, longest_path).of_image(blue);
         if (error <= eps)
             return {std::move(rule), error};
     }

@@ -23,7 +23,9 @@ double brightness(double path, double wavelength);
 // of any wave up to that path, since light at a distance from the axis mixes them all.
 class FringeErrors {
   public:
-    FringeErrors(const WavelengthRule &rule, const Spectrum &spectrum, double longest_path);
+    // `weights`: the rule's for the spectrum.
+    FringeErrors(const WavelengthRule &rule, const std::vector<double> &weights,
+                 const Spectrum &spectrum, double longest_path);
 
     double up_to(double path) const;
     // The largest one times the brightness there.

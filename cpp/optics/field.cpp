@@ -28,10 +28,11 @@ class ColourCheck {
     }
 
     // The largest error of any pixel, by two measures of which the smaller counts.
-    double error(const Spectrum &spectrum, const ImageMaker &maker) const {
+    double error(const Spectrum &spectrum, const std::vector<double> &weights,
+                 const ImageMaker &maker) const {
         if (rule_.exact())
             return 0;
-        const FringeErrors fringes(rule_, spectrum, maker.longest_path());
+        const FringeErrors fringes(rule_, weights, spectrum, maker.longest_path());
         const double high = rule_.high_moment(spectrum);
         const double middle = static_cast<double>(images_[0].nx() - 1) / 2;
         double most = 0;
@@ -143,7 +144,8 @@ Attempt attempt(const ImageMaker &maker, const WavelengthRule &rule,
         for (size_t k = 0; k < rule.size(); ++k)
             field.colours.push_back({rule.wavelengths()[k], sums[s].weights[k]});
         result.error = std::max(result.error, field.error);
-        const double colour_error = 2 / field.peak * check.error(spectra[s], maker);
+        const double colour_error =
+            2 / field.peak * check.error(spectra[s], sums[s].weights, maker);
         result.colour_error = std::max(result.colour_error, colour_error);
         field.error += colour_error;
     }

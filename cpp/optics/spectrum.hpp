@@ -60,6 +60,9 @@ class WavelengthRule {
     bool exact() const { return exact_; }       // the rule is the spectrum itself
     double half_range() const { return half_; } // of 1 / wavelength
 
+    // Of its own spectrum; not for exact rules.
+    const std::vector<double> &own_weights() const { return gauss_; }
+
     // The same nodes for another spectrum, whose points are among those of the rule's own: exact
     // for polynomials of degree below n, and to 2n for the rule's own.
     std::vector<double> weights(const Spectrum &spectrum) const;
