@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Discrete Fourier transforms at any step (Bluestein 1970, IEEE Trans. Audio Electroacoust. 18,
-// 451): n j = (n^2 + j^2 - (j - n)^2) / 2 makes of the sum a convolution, done by FFT. Exact but for
-// rounding.
+// 451): n j = (n^2 + j^2 - (j - n)^2) / 2 makes of the sum a convolution, done by FFT. Exact but
+// for rounding.
 #pragma once
 
 #include "numerics/fft.hpp"

@@ -50,7 +50,8 @@ struct Field {
     int64_t nodes = 0;           // of the pupil, over all wavelengths
     int64_t grid_size = 0;       // of the diffraction image that this was filtered from
     double peak = 0;             // largest fraction of the light in one pixel
-    double error = 0;            // estimate of the numerical error, of the peak pixel
+    double faintest_peak = 0;    // smallest that the brightest pixel of a stamp may get
+    double error = 0;            // estimate of the numerical error, of the stamp's peak pixel
     double model_error = 0;      // of the pupil's description, likewise
 };
 

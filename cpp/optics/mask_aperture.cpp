@@ -134,8 +134,7 @@ class MaskAperture final : public Aperture {
     // The transform of one pixel along an axis.
     double side(double k) const {
         const double half = k * scale_ / 2;
-        return half == 0 || pixels_ == MaskPixels::points ? scale_
-                                                          : scale_ * std::sin(half) / half;
+        return half == 0 || pixels_ == MaskPixels::points ? scale_ : scale_ * std::sin(half) / half;
     }
 
     MaskPixels pixels_;

@@ -99,8 +99,8 @@ TEST(RomanPoints, MeetTheChromaticStamp) {
     wfpsf_sed *sed = nullptr;
     require(wfpsf_sed_create_power_law(WFPSF_SED_PHOTONS, 0, &sed));
     wfpsf_psf *psf = nullptr;
-    const wfpsf_status status = wfpsf_psf_create_chromatic(roman.get(), "J129", 7, x, y, 1, &sed,
-                                                           options.get(), &psf);
+    const wfpsf_status status =
+        wfpsf_psf_create_chromatic(roman.get(), "J129", 7, x, y, 1, &sed, options.get(), &psf);
     wfpsf_sed_destroy(sed);
     require(status);
     const Pixels smooth = draw(Psf(psf), 33, 1);

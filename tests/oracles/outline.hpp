@@ -48,8 +48,8 @@ struct Piece {
     Vec slope(double t) const { return round ? std::cos(t) * b - std::sin(t) * a : a; }
     // Longest possible.
     double length() const {
-        return std::abs(end - begin) * (round ? std::hypot(std::hypot(a.x, a.y), b.x, b.y)
-                                              : std::hypot(a.x, a.y));
+        return std::abs(end - begin) *
+               (round ? std::hypot(std::hypot(a.x, a.y), b.x, b.y) : std::hypot(a.x, a.y));
     }
 };
 
@@ -77,9 +77,7 @@ class Edge {
         return 1 - u * u - v * v;
     }
 
-    Piece piece(double begin, double end) const {
-        return {round_, origin_, a_, b_, begin, end};
-    }
+    Piece piece(double begin, double end) const { return {round_, origin_, a_, b_, begin, end}; }
     bool round() const { return round_; }
     bool operator==(const Edge &) const = default;
 
@@ -356,9 +354,9 @@ inline std::vector<double> contour_pixels(const Outline &outline, double wavelen
     return sums.pixels(amplitudes, area(outline));
 }
 
-// The same with aberrations, waves(x, y): Green's theorem makes the integral of f over the area that
-// of dy times the integral of f along x up to the outline, from the axis on. `slope` is the largest
-// gradient of the waves where the pupil is, and between it and the axis.
+// The same with aberrations, waves(x, y): Green's theorem makes the integral of f over the area
+// that of dy times the integral of f along x up to the outline, from the axis on. `slope` is the
+// largest gradient of the waves where the pupil is, and between it and the axis.
 template <class Waves>
 std::vector<double> green_pixels(const Outline &outline, const Waves &waves, double slope,
                                  double wavelength, double pixel_scale,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plain sums of waves from many points of a pupil, in some pixels: |A|^2 averaged over each by a
-// tensor Gauss rule. A pixel's waves are products, of the wave at its centre and of waves within the
-// pixel, which all pixels share.
+// tensor Gauss rule. A pixel's waves are products, of the wave at its centre and of waves within
+// the pixel, which all pixels share.
 #pragma once
 
 #include "numerics/dispatch.hpp"

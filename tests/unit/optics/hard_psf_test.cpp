@@ -88,8 +88,7 @@ TEST(HardPsf, StrutsFromNothingToAFifthOfTheRadius) {
         for (const double width : {0.0, 1e-6, 0.01, 0.2}) {
             SpiderPupil pupil{1.18, 1.18 * obscuration, {}};
             for (const double azimuth : {0.3, 2.0, 3.9, 5.0})
-                pupil.struts.push_back(
-                    {std::sin(azimuth), -std::cos(azimuth), 0.02, 1.18 * width});
+                pupil.struts.push_back({std::sin(azimuth), -std::cos(azimuth), 0.02, 1.18 * width});
             const std::string what =
                 std::to_string(obscuration) + ", struts " + std::to_string(width);
             expect_contract(pupil, {j129}, what);
@@ -152,9 +151,9 @@ TEST(HardPsf, MasksOfOnePixel) {
             for (int64_t y = 0; y < 15; ++y)
                 for (int64_t x = 0; x < 15; ++x) {
                     peak = std::max(peak, stamp(x, y));
-                    worst = std::max(worst,
-                                     std::abs(stamp(x, y) - along(static_cast<double>(x) - 7.2) *
-                                                                along(static_cast<double>(y) - 6.9)));
+                    worst = std::max(
+                        worst, std::abs(stamp(x, y) - along(static_cast<double>(x) - 7.2) *
+                                                          along(static_cast<double>(y) - 6.9)));
                 }
             EXPECT_LE(worst, psf.error_estimate() * peak);
             EXPECT_LE(psf.error_estimate(), 1e-10);
