@@ -3,6 +3,7 @@
 
 #include "error/error.hpp"
 #include "numerics/quadrature.hpp"
+#include "numerics/sinc.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +20,7 @@ constexpr double pi = std::numbers::pi;
 // Measured over all frequencies of the band and all positions (tests/unit/numerics): the worst
 // error of the kernel lies below this many times exp(-beta), down to rounding.
 constexpr double error_factor = 8;
-constexpr double rounding = 4e-15;
+constexpr double rounding = AveragedSamples::rounding;
 
 } // namespace
 
@@ -119,10 +120,6 @@ struct Spectrum {
     }
 };
 
-double sinc(double t) {
-    return t == 0 ? 1 : std::sin(pi * t) / (pi * t);
-}
-
 // The interpolation's error, integrated over the spectrum of averaged samples, at the worst of some
 // positions between two samples.
 double interpolation_error(const BandlimitedInterpolator &interpolator, double width,
@@ -173,7 +170,7 @@ double outline_strength(Outline outline, double extent, double area) {
 // The windows' cutoff lies inside the band by as much as was found to serve best at all bandwidths
 // and lengths; the error is then not assumed but summed up.
 AveragedSamples::AveragedSamples(double bandwidth, double width, Outline outline, double eps)
-    : interpolator_(2, 0), error_(0) {
+    : interpolator_(2, 0) {
     if (!(bandwidth > 0 && bandwidth < 0.5))
         fail(WFPSF_ERROR_RANGE, "bandwidth = %g: must lie between 0 and 1/2 cycles per sample",
              bandwidth);
@@ -202,8 +199,8 @@ AveragedSamples::AveragedSamples(double bandwidth, double width, Outline outline
         if (interpolating + averaging <= share)
             break;
     }
-    error_ = 2 * safety * (interpolating + averaging) + rounding;
-    interpolator_.error_ = error_;
+    missed_ = 2 * safety * (interpolating + averaging);
+    interpolator_.error_ = error();
 }
 
 } // namespace wfpsf

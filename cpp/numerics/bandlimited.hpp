@@ -59,13 +59,16 @@ class AveragedSamples {
     const BandlimitedInterpolator &interpolator() const { return interpolator_; }
     const std::vector<double> &averaging() const { return averaging_; } // taps 0..2m, centre m
 
-    // Bounds the error of all passes, two along each axis, in units of outline_strength().
-    double error() const { return error_; }
+    // Bounds the error of all passes, two along each axis: what the filters miss, in units of
+    // outline_strength(), and the rounding of the sums, of the largest sample.
+    double missed() const { return missed_; }
+    static constexpr double rounding = 4e-15;
+    double error() const { return missed_ + rounding; } // where both units are the same
 
   private:
     BandlimitedInterpolator interpolator_;
     std::vector<double> averaging_;
-    double error_;
+    double missed_ = 0;
 };
 
 } // namespace wfpsf

@@ -3,6 +3,7 @@
 
 #include "numerics/bandlimited.hpp"
 #include "numerics/quadrature.hpp"
+#include "numerics/sinc.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +16,6 @@ namespace wfpsf {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-
-double sinc(double t) {
-    return t == 0 ? 1 : std::sin(pi * t) / (pi * t);
-}
 
 // The interpolator's kernel averaged over a window and a Gaussian, anywhere along one axis, as the
 // Fourier integral of what the three do to each frequency.

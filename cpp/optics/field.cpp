@@ -13,6 +13,45 @@ namespace wfpsf {
 
 namespace {
 
+// The unaberrated peak over the faintest one of a PSF with few aberrations, from the former, as the
+// fraction of the light in a native pixel: fits what is found from 100 nm to 10 um.
+double guessed_ratio(double unaberrated_peak) {
+    return 1.2 + 5.8 * unaberrated_peak;
+}
+
+// The smallest that the brightest pixel of a stamp may be, wherever between pixels the star stands:
+// of samples a native pixel apart near the peak, from all places on the grid and half way between
+// its samples.
+double faintest_near(const Plane<double> &value, int64_t per_pixel, int64_t peak_x,
+                     int64_t peak_y) {
+    constexpr int64_t reach = 2;     // native pixels
+    constexpr double between = 0.95; // of these places
+    const auto window = [&](int64_t peak, int64_t size) {
+        return std::pair{std::max<int64_t>(0, peak - reach * per_pixel),
+                         std::min(size - 1, peak + reach * per_pixel)};
+    };
+    const auto [left, right] = window(peak_x, value.nx());
+    const auto [low, top] = window(peak_y, value.ny());
+    const auto faintest = [&, left = left, right = right, low = low, top = top](auto at) {
+        Plane<double> brightest(per_pixel, per_pixel);
+        for (int64_t y = low; y < top; ++y)
+            for (int64_t x = left; x < right; ++x) {
+                double &peak = brightest(x % per_pixel, y % per_pixel);
+                peak = std::max(peak, at(x, y));
+            }
+        double least = INFINITY;
+        for (int64_t y = 0; y < per_pixel; ++y)
+            for (int64_t x = 0; x < per_pixel; ++x)
+                least = std::min(least, brightest(x, y));
+        return least;
+    };
+    const double on_grid = faintest([&](int64_t x, int64_t y) { return value(x, y); });
+    const double half_way = faintest([&](int64_t x, int64_t y) {
+        return (value(x, y) + value(x + 1, y) + value(x, y + 1) + value(x + 1, y + 1)) / 4;
+    });
+    return between * std::min(on_grid, half_way);
+}
+
 // Some pixels of the images of all wavelengths, and what they tell of the rule.
 class ColourCheck {
   public:
@@ -104,12 +143,9 @@ Field field_of(const ImageMaker &maker, const Sum &sum) {
     field.per_pixel = maker.per_pixel();
     field.grid_size = maker.grid().size;
     field.value = maker.averaged(sum.intensity);
-    for (int64_t y = 0; y < field.value.ny(); ++y)
-        for (int64_t x = 0; x < field.value.nx(); ++x)
-            field.peak = std::max(field.peak, field.value(x, y));
-    // A stamp's brightest pixel may be half the largest possible one.
-    field.error = 2 / field.peak * (sum.error + sum.unaberrated_peak * maker.filter_error());
-    field.model_error = 2 / field.peak * sum.model_error;
+    field.find_peaks();
+    field.error = (sum.error + sum.unaberrated_peak * maker.filter_error()) / field.faintest_peak;
+    field.model_error = sum.model_error / field.faintest_peak;
     return field;
 }
 
@@ -145,7 +181,7 @@ Attempt attempt(const ImageMaker &maker, const WavelengthRule &rule,
             field.colours.push_back({rule.wavelengths()[k], sums[s].weights[k]});
         result.error = std::max(result.error, field.error);
         const double colour_error =
-            2 / field.peak * check.error(spectra[s], sums[s].weights, maker);
+            check.error(spectra[s], sums[s].weights, maker) / field.faintest_peak;
         result.colour_error = std::max(result.colour_error, colour_error);
         field.error += colour_error;
     }
@@ -168,7 +204,7 @@ std::vector<Field> make_fields(const Optics &optics, std::span<const Light> ligh
     Spectrum all = together(colours(0));
     const double blue = std::ranges::min(all.wavelength);
     const double pixel = settings.pixel_scale / blue;
-    const double ratio = 2 * (1 + 1.7 * optics.aperture->area() * pixel * pixel);
+    const double ratio = guessed_ratio(optics.aperture->area() * pixel * pixel);
     const auto [for_colour, for_the_rest] = shares_of(settings.eps, all);
     double tolerance = for_the_rest / ratio;
     double for_rule = for_colour / 3;
@@ -211,6 +247,19 @@ Field make_field_like(const Field &like, const Optics &optics, const PsfSettings
     field.shortest_wavelength = like.shortest_wavelength;
     field.tolerance = like.tolerance;
     return field;
+}
+
+void Field::find_peaks() {
+    peak = 0;
+    int64_t peak_x = 0, peak_y = 0;
+    for (int64_t y = 0; y < value.ny(); ++y)
+        for (int64_t x = 0; x < value.nx(); ++x)
+            if (value(x, y) > peak) {
+                peak = value(x, y);
+                peak_x = x;
+                peak_y = y;
+            }
+    faintest_peak = faintest_near(value, per_pixel, peak_x, peak_y);
 }
 
 template <class T>

@@ -55,10 +55,13 @@ struct Field {
     int64_t nodes = 0;           // of the pupil, over all wavelengths
     int64_t grid_size = 0;       // of the diffraction image that this was filtered from
     double peak = 0;             // largest fraction of the light in one pixel
-    double error = 0;            // estimate of the numerical error, of the peak pixel
+    double faintest_peak = 0;    // smallest that the brightest pixel of a stamp may get
+    double error = 0;            // estimate of the numerical error, of the stamp's peak pixel
     double model_error = 0;      // of the pupil's description, likewise
     // What grid and filters were chosen by.
     double shortest_wavelength = 0, tolerance = 0;
+
+    void find_peaks(); // peak and faintest_peak from value
 
     // out(i, j) = what a star gives pixel (first_x + i, first_y + j) of an image whose first pixel
     // is at (0, 0): see Psf::draw().

@@ -24,7 +24,7 @@ namespace wfpsf {
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr double rounding = 1e-13; // of |A|^2 in units of area^2: sums of 10^3 to 10^5 terms
+constexpr double rounding = 5e-14; // of A in units of the area: sums of 10^3 to 10^6 terms
 constexpr double most_nodes = 1e6; // that a map's roughness may lead to, about
 using Complex = std::complex<double>;
 
@@ -187,7 +187,7 @@ template <class Pupil> class GeometricAperture final : public Aperture {
     GeometricAperture(const Pupil &pupil, std::vector<LitPart> parts, double diameter,
                       double fit_error)
         : pupil_(pupil), parts_(std::move(parts)), fit_error_(fit_error) {
-        pupil_nodes(pupil, 1, 1e-15, [this](const PupilNodes &nodes) {
+        pupil_nodes(pupil, 20, 1e-15, [this](const PupilNodes &nodes) {
             area_ = std::accumulate(nodes.weight.begin(), nodes.weight.end(), area_);
         });
         diameter_ = diameter;
@@ -317,6 +317,7 @@ template <class Pupil> class GeometricAperture final : public Aperture {
                  const FocalGrid &grid, const Quadrature &own, const Quadrature &finer) const {
         const std::array<int64_t, per_axis> at = probes(grid);
         const auto truth = at_probes(wavefront, wavelength, grid, finer);
+        const double most = largest(intensity);
         double worst = 0;
         for (size_t p = 0; p < truth.size(); ++p)
             worst = std::max(worst, std::abs(intensity(at[p % per_axis], at[p / per_axis]) -
@@ -326,9 +327,9 @@ template <class Pupil> class GeometricAperture final : public Aperture {
             double off = 0;
             for (size_t p = 0; p < truth.size(); ++p)
                 off = std::max(off, std::abs(mine[p] - truth[p]));
-            worst = std::max(worst, (2 * std::sqrt(largest(intensity)) + off) * off);
+            worst = std::max(worst, (2 * std::sqrt(most) + off) * off);
         }
-        return 4 * worst / (area_ * area_) + rounding;
+        return 4 * worst / (area_ * area_) + 2 * rounding * std::sqrt(most) / area_;
     }
 
     Pupil pupil_;

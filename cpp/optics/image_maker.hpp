@@ -48,7 +48,9 @@ class ImageMaker {
 
     // What the averages and the interpolation add to an image's error, in units of the unaberrated
     // peak.
-    double filter_error() const { return strength_ * (samples_.error() + filter_.error); }
+    double filter_error() const {
+        return strength_ * (samples_.missed() + filter_.error) + AveragedSamples::rounding;
+    }
 
   private:
     double bandwidth(double shortest_wavelength) const {

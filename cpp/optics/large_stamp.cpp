@@ -17,19 +17,18 @@ constexpr auto number = static_cast<int64_t>(sizeof(double));
 // The grid, the filters and the memory of a stamp.
 class Plan {
   public:
-    Plan(const Optics &optics, const Light &light, const PsfSettings &settings, double peak,
-         const StampSize &size)
-        : spectrum_(light(0)), shares_(shares_of(settings.eps, spectrum_)), peak_(peak),
+    Plan(const Optics &optics, const Light &light, const PsfSettings &settings,
+         double faintest_peak, const StampSize &size)
+        : spectrum_(light(0)), shares_(shares_of(settings.eps, spectrum_)), peak_(faintest_peak),
           maker_(optics, settings, blue(), size.reach,
-                 std::min(0.1,
-                          shares_.for_the_rest * peak / (2 * unaberrated_peak(optics, settings)))),
+                 std::min(0.1, shares_.for_the_rest * peak_ / unaberrated_peak(optics, settings))),
           size_(size) {}
 
     const ImageMaker &maker() const { return maker_; }
     double for_colour() const { return shares_.for_colour; }
     double blue() const { return std::ranges::min(spectrum_.wavelength); }
     // An error in units of the unaberrated peak, in those of the stamp's brightest pixel.
-    double in_peaks(double error) const { return 2 / peak_ * error; }
+    double in_peaks(double error) const { return error / peak_; }
 
     int64_t field_size() const { return maker_.grid().size - 2 * maker_.margin(); }
     // Samples of the field between two rows of the stamp.
@@ -105,16 +104,16 @@ void add_rows(const Plan &plan, const DiffractionStrips &strips, const Star &sta
 } // namespace
 
 StampMemory stamp_memory(const Optics &optics, const Light &light, const PsfSettings &settings,
-                         double peak, const StampSize &size) {
-    const Plan plan(optics, light, settings, peak, size);
+                         double faintest_peak, const StampSize &size) {
+    const Plan plan(optics, light, settings, faintest_peak, size);
     return {plan.memory(1), plan.memory(size.ny)};
 }
 
 template <class T>
 double add_large_stamp(const Optics &optics, const Light &light, const PsfSettings &settings,
-                       double peak, const Star &star, const StampSize &size, View<T> image,
+                       double faintest_peak, const Star &star, const StampSize &size, View<T> image,
                        const Manners &manners) {
-    const Plan plan(optics, light, settings, peak, size);
+    const Plan plan(optics, light, settings, faintest_peak, size);
     manners.require_memory(plan.memory(1), "a stamp that large, a row at a time,");
     const int64_t height = plan.rows_within(manners.memory_limit);
     const ImageMaker &maker = plan.maker();

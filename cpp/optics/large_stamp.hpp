@@ -23,14 +23,15 @@ struct StampSize {
 };
 
 StampMemory stamp_memory(const Optics &optics, const Light &light, const PsfSettings &settings,
-                         double peak, const StampSize &size);
+                         double faintest_peak, const StampSize &size);
 
 // Adds a star to an image of that size, every pixel of it; returns an estimate of the error in
-// units of the peak pixel, whose fraction of the light is `peak`. Less memory than the least:
-// WFPSF_ERROR_MEMORY_LIMIT. A caller that stops leaves a part of the light in the image.
+// units of the peak pixel, which holds the fraction `faintest_peak` of the light at least. Less
+// memory than the least: WFPSF_ERROR_MEMORY_LIMIT. A caller that stops leaves a part of the light
+// in the image.
 template <class T>
 double add_large_stamp(const Optics &optics, const Light &light, const PsfSettings &settings,
-                       double peak, const Star &star, const StampSize &size, View<T> image,
+                       double faintest_peak, const Star &star, const StampSize &size, View<T> image,
                        const Manners &manners);
 
 } // namespace wfpsf

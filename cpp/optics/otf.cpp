@@ -2,6 +2,7 @@
 #include "optics/otf.hpp"
 
 #include "numerics/fft.hpp"
+#include "numerics/sinc.hpp"
 
 #include <algorithm>
 #include <array>
@@ -33,10 +34,6 @@ Complex mean_phase(const Wavefront &wavefront, const PupilRaster &raster, int64_
         return phase(raster.centroid_x(x, y), raster.centroid_y(x, y));
     constexpr double d = std::numbers::inv_sqrt3 / 2;
     return (phase(-d, -d) + phase(d, -d) + phase(-d, d) + phase(d, d)) / 4.0;
-}
-
-double sinc(double x) {
-    return x == 0 ? 1 : std::sin(pi * x) / (pi * x);
 }
 
 } // namespace

@@ -60,7 +60,7 @@ double Psf::draw(const Star &star, int64_t oversampling, View<T> image, Drawing 
     if (reach > settings_.radius) {
         if (drawing == Drawing::overwrites)
             fill([](T, int64_t, int64_t) { return 0; });
-        return add_large_stamp(optics_, light_, settings_, field_.peak, star,
+        return add_large_stamp(optics_, light_, settings_, field_.faintest_peak, star,
                                {reach, oversampling, image.nx, image.ny}, image, manners);
     }
     if (drawing == Drawing::overwrites) {
@@ -77,7 +77,8 @@ StampMemory Psf::draw_memory(const Star &star, int64_t oversampling, int64_t nx,
     const double reach = checked_reach(star, oversampling, nx, ny);
     if (reach <= settings_.radius)
         return {0, 0};
-    return stamp_memory(optics_, light_, settings_, field_.peak, {reach, oversampling, nx, ny});
+    return stamp_memory(optics_, light_, settings_, field_.faintest_peak,
+                        {reach, oversampling, nx, ny});
 }
 
 template <class T>

@@ -156,7 +156,8 @@ void VaryingPsf::compress(const std::vector<Plane<double>> &nodes) {
     };
     Eigen::Index kept = count;
     for (double left_out = 0;
-         kept > 1 && (left_out += reach(kept - 1)) < share_of_modes * settings_.eps * plain_.peak;)
+         kept > 1 &&
+         (left_out += reach(kept - 1)) < share_of_modes * settings_.eps * plain_.faintest_peak;)
         --kept;
     mode_.clear();
     share_.assign(nodes.size(), {});
@@ -182,10 +183,9 @@ double VaryingPsf::measured_error() {
         const auto [x, y] = place(u, v);
         Plane<double> light(plain_.value.nx(), plain_.value.ny());
         sum_planes(mode_, weights(x, y), light.view());
-        worst = std::max(worst, largest_difference(light, truth.value) / truth.peak);
+        worst = std::max(worst, largest_difference(light, truth.value) / truth.faintest_peak);
     }
-    // A stamp's brightest pixel may be half the largest possible one.
-    return 2 * safety * worst;
+    return safety * worst;
 }
 
 std::vector<double> VaryingPsf::weights(double x, double y) const {
@@ -215,10 +215,7 @@ Psf VaryingPsf::at(double x, double y) const {
              region_.x1, region_.y0, region_.y1);
     Field field = plain_;
     sum_planes(mode_, weights(x, y), field.value.view());
-    field.peak = 0;
-    for (int64_t j = 0; j < field.value.ny(); ++j)
-        for (int64_t i = 0; i < field.value.nx(); ++i)
-            field.peak = std::max(field.peak, field.value(i, j));
+    field.find_peaks();
     field.error = error_;
     return Psf(optics_(x, y), light_, settings_, std::move(field));
 }

@@ -122,6 +122,31 @@ static void test_refuses(void) {
     wfpsf_image_destroy(none);
 }
 
+/* Two points a metre apart: fringes of a cosine squared, without a square's fall. */
+static void test_points(const wfpsf_instrument *c5) {
+    double mask[11] = {1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1}, far, near;
+    wfpsf_options *options = flat_wavefront(c5);
+    wfpsf_image *image = wrap(mask, 11, 1), *out = wrap(&near, 1, 1);
+    wfpsf_psf *psf = NULL;
+    CHECK_FAILS(WFPSF_ERROR_RANGE, "MASK_POINTS = 2",
+                wfpsf_options_set_integer(options, WFPSF_OPTION_MASK_POINTS, 2));
+    CHECK_OK(wfpsf_options_set_integer(options, WFPSF_OPTION_MASK_POINTS, 1));
+    CHECK_OK(wfpsf_psf_create_from_mask(c5, image, 0.1, 5, 0, 7, wavelength_nm, options, &psf));
+    CHECK_OK(wfpsf_psf_draw(psf, 0, 0, 1, NULL, out));
+    far = near;
+    /* Along y the light is the same everywhere. */
+    CHECK_OK(wfpsf_psf_draw(psf, 0, 6.3, 1, NULL, out));
+    CHECK_NEAR(far, near, 1e-9 * near);
+    /* Points cover no area, whose autocorrelation an OTF is. */
+    wfpsf_otf *otf = NULL;
+    CHECK_FAILS(WFPSF_ERROR_ARGUMENT, "points", wfpsf_otf_create(psf, NULL, &otf));
+    CHECK(otf == NULL);
+    wfpsf_psf_destroy(psf);
+    wfpsf_image_destroy(out);
+    wfpsf_image_destroy(image);
+    wfpsf_options_destroy(options);
+}
+
 int main(void) {
     double lit[16];
     wfpsf_instrument *c5 = NULL;
@@ -131,6 +156,7 @@ int main(void) {
     instrument = c5;
     good_mask = mask;
     test_square_pupil(c5);
+    test_points(c5);
     test_refuses();
     wfpsf_image_destroy(mask);
     wfpsf_instrument_destroy(c5);
