@@ -170,7 +170,7 @@ Solution solve_any(const IpcKernel &kernel, View<const T> in, const Convolution 
     };
 
     const double tolerance = std::max(limits.tolerance, least_tolerance<T>);
-    const Spectrum spectrum = real_spectrum(kernel);
+    const SpectralInterval spectrum = real_spectrum(kernel);
     const bool is_positive = spectrum.lowest > 0;
     const auto continuation = continuation_of(kernel, how.edge);
     constexpr int64_t many_passes = 40;
@@ -196,10 +196,10 @@ Solution solve_any(const IpcKernel &kernel, View<const T> in, const Convolution 
 
 } // namespace
 
-Spectrum real_spectrum(const IpcKernel &kernel) {
+SpectralInterval real_spectrum(const IpcKernel &kernel) {
     const Transform transform = transform_on_grid(kernel, fine_grid(kernel));
     std::vector<std::complex<double>> values(static_cast<size_t>(transform.nx()));
-    Spectrum spectrum{HUGE_VAL, -HUGE_VAL};
+    SpectralInterval spectrum{HUGE_VAL, -HUGE_VAL};
     for (int64_t k = 0; k < transform.ny(); ++k) {
         transform(k, values.data());
         for (const std::complex<double> value : values) {

@@ -29,7 +29,7 @@ struct Solution {
 double inverse_noise_amplification(const IpcKernel &kernel);
 
 // The interval of the real parts of K^.
-Spectrum real_spectrum(const IpcKernel &kernel);
+SpectralInterval real_spectrum(const IpcKernel &kernel);
 
 // Zero, replicate or wrap, or WFPSF_ERROR_ARGUMENT.
 void require_invertible_edge(Edge edge);

@@ -25,8 +25,8 @@ double tap(Parameter3 p, VaryingIpc::Offset d) {
 }
 
 // K^ is real and linear in the cosines of both frequencies: it is extreme at their corners.
-Spectrum spectrum_of(Parameter3 p) {
-    Spectrum extremes{1, 1};
+SpectralInterval spectrum_of(Parameter3 p) {
+    SpectralInterval extremes{1, 1};
     for (const double cx : {-1, 1})
         for (const double cy : {-1, 1}) {
             const double value = tap(p, {0, 0}) + 2 * tap(p, {1, 0}) * cx +
@@ -43,12 +43,16 @@ double coordinate(int64_t i, int64_t n) {
 
 } // namespace
 
-SurfacePolynomial::SurfacePolynomial(int64_t degree, std::span<const double> coefficients)
-    : degree_(static_cast<size_t>(degree)),
-      coefficients_(coefficients.begin(), coefficients.end()) {
+void SurfacePolynomial::require_degree(int64_t degree) {
     if (degree < 0 || degree > most_degree)
         fail(WFPSF_ERROR_RANGE, "degree = %lld: must be 0..%lld", static_cast<long long>(degree),
              static_cast<long long>(most_degree));
+}
+
+SurfacePolynomial::SurfacePolynomial(int64_t degree, std::span<const double> coefficients)
+    : degree_(static_cast<size_t>(degree)),
+      coefficients_(coefficients.begin(), coefficients.end()) {
+    require_degree(degree);
     if (std::ssize(coefficients) != coefficients_of(degree))
         fail(WFPSF_ERROR_SIZE, "a polynomial of degree %lld has %lld coefficients, not %zu",
              static_cast<long long>(degree), static_cast<long long>(coefficients_of(degree)),
@@ -105,7 +109,7 @@ void VaryingIpc::check_row(int64_t y, View<const double> rows, bool allow_negati
                      static_cast<int>(d.dx), static_cast<int>(d.dy), place().first, place().second,
                      value);
         }
-        const Spectrum own = spectrum_of(p);
+        const SpectralInterval own = spectrum_of(p);
         spectrum_.lowest = std::min(spectrum_.lowest, own.lowest);
         spectrum_.highest = std::max(spectrum_.highest, own.highest);
         const double margin = std::max(own.lowest, 0.0);
@@ -155,7 +159,7 @@ VaryingIpc VaryingIpc::of_regions(const Image &regions, std::span<const IpcKerne
     const auto use = [&](size_t k, int64_t x, int64_t y) {
         is_used[k] = true;
         const double margin = kernels[k].margin().value;
-        const Spectrum own = real_spectrum(kernels[k]);
+        const SpectralInterval own = real_spectrum(kernels[k]);
         ipc.spectrum_.lowest = std::min(ipc.spectrum_.lowest, own.lowest);
         ipc.spectrum_.highest = std::max(ipc.spectrum_.highest, own.highest);
         if (margin < ipc.weakest_.margin)

@@ -27,6 +27,8 @@ class SurfacePolynomial {
     static constexpr int64_t most_degree = 20;
     static int64_t coefficients_of(int64_t degree) { return (degree + 1) * (degree + 2) / 2; }
 
+    static void require_degree(int64_t degree);
+
     // Zero.
     SurfacePolynomial() : SurfacePolynomial(0, std::array{0.0}) {}
     SurfacePolynomial(int64_t degree, std::span<const double> coefficients);
@@ -70,7 +72,7 @@ class VaryingIpc {
     };
     const Weakest &weakest() const { return weakest_; }
     // Of the real parts of all K_q^.
-    Spectrum spectrum() const { return spectrum_; }
+    SpectralInterval spectrum() const { return spectrum_; }
 
   private:
     struct Regions {
@@ -89,7 +91,7 @@ class VaryingIpc {
     std::variant<Parameters, Regions> model_;
     std::vector<Offset> offsets_;
     Weakest weakest_;
-    Spectrum spectrum_{1, 1};
+    SpectralInterval spectrum_{1, 1};
 };
 
 struct VaryingConvolution {
