@@ -210,7 +210,12 @@ std::vector<Case> ipc_cases() {
         ipc_case<double>("IPC 3x3 on 4088^2, float64", 0, kernel, {}, Peer::fft),
         ipc_case<double>("IPC 3x3 on 4088^2, float64, taps 32 apart", 0, kernel, {.tap_step = 32}),
         inverse_case("exact IPC inverse on 4088^2, alpha = 0.02", 0.02, Edge::zero),
-        inverse_case("exact IPC inverse on 4088^2, alpha = 0.12, periodic", 0.12, Edge::wrap)};
+        inverse_case("exact IPC inverse on 4088^2, alpha = 0.12", 0.12, Edge::zero),
+        inverse_case("exact IPC inverse on 4088^2, alpha = 0.12, periodic", 0.12, Edge::wrap),
+        inverse_case("exact IPC inverse on 4088^2, alpha = 0.12, replicated", 0.12,
+                     Edge::replicate),
+        inverse_case("exact IPC inverse on 4088^2, alpha = 0.124", 0.124, Edge::zero),
+        inverse_case("exact IPC inverse on 4088^2, alpha = 0.1248", 0.1248, Edge::zero)};
     for (const double alpha : {0.01, 0.02, 0.05})
         for (const int64_t order : {1, 2, 4, 8})
             cases.push_back(neumann_case(alpha, order));

@@ -2,6 +2,7 @@
 #include "detector/ipc_solve.hpp"
 
 #include "detector/chebyshev.hpp"
+#include "detector/ipc_sweep.hpp"
 #include "error/error.hpp"
 #include "image/interleave.hpp"
 #include "numerics/fft.hpp"
@@ -63,12 +64,17 @@ int64_t fine_grid(const IpcKernel &kernel) {
     return 2 * good_fft_length(std::max<int64_t>(16, 2 * std::max(kernel.nx(), kernel.ny())));
 }
 
+bool is_symmetric_3x3(const IpcKernel &kernel) {
+    const KernelAsymmetry asymmetry = kernel.asymmetry();
+    return std::max(kernel.nx(), kernel.ny()) <= 3 && asymmetry.left_right == 0 &&
+           asymmetry.up_down == 0;
+}
+
 // The continuation beyond the border under which a transform has the inverse exactly.
 std::optional<Continuation> continuation_of(const IpcKernel &kernel, Edge edge) {
     if (edge == Edge::wrap)
         return Continuation::periodic;
-    const KernelAsymmetry asymmetry = kernel.asymmetry();
-    if (std::max(kernel.nx(), kernel.ny()) > 3 || asymmetry.left_right > 0 || asymmetry.up_down > 0)
+    if (!is_symmetric_3x3(kernel))
         return std::nullopt;
     return edge == Edge::zero ? Continuation::odd : Continuation::even;
 }
@@ -80,6 +86,8 @@ template <class From, class To> void copy_pixels(View<From> from, View<To> to) {
 }
 
 void divide(const IpcKernel &kernel, Continuation continuation, double step, View<double> image) {
+    if (step == 1 && is_symmetric_3x3(kernel) && divide_by_sweeps(kernel, continuation, image))
+        return;
     std::vector<double> fx = filter_frequencies(continuation, image.nx, true);
     std::vector<double> fy = filter_frequencies(continuation, image.ny, false);
     for (auto *frequencies : {&fx, &fy})
