@@ -181,7 +181,7 @@ Solution solve_any(const IpcKernel &kernel, View<const T> in, const Convolution 
     const SpectralInterval spectrum = real_spectrum(kernel);
     const bool is_positive = spectrum.lowest > 0;
     const auto continuation = continuation_of(kernel, how.edge);
-    constexpr int64_t many_passes = 40;
+    constexpr int64_t many_passes = 20; // cost what a transform does, at least
     if (continuation && !(is_positive && chebyshev_passes(spectrum, tolerance) <= many_passes)) {
         divide_by_phases(kernel, *continuation, how.tap_step, x);
         solution.residual = residual();

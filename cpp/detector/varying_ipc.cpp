@@ -2,6 +2,7 @@
 #include "detector/varying_ipc.hpp"
 
 #include "error/error.hpp"
+#include "numerics/dispatch.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,13 +16,30 @@ struct Parameter3 {
     double alpha, alpha_prime, alpha_plus;
 };
 
-// The taps of Eqs. 7-9 by how far they are from the centre.
-double tap(Parameter3 p, VaryingIpc::Offset d) {
+// A tap of Eqs. 7-9, which is linear in the parameters.
+struct LinearTap {
+    double constant, by_alpha, by_alpha_prime, by_alpha_plus;
+};
+
+LinearTap linear_tap(VaryingIpc::Offset d) {
     if (d.dx == 0 && d.dy == 0)
-        return 1 - 4 * (p.alpha + p.alpha_prime);
+        return {1, -4, -4, 0};
     if (d.dx != 0 && d.dy != 0)
-        return p.alpha_prime;
-    return d.dx != 0 ? p.alpha + p.alpha_plus : p.alpha - p.alpha_plus;
+        return {0, 0, 1, 0};
+    return {0, 1, 0, d.dx != 0 ? 1.0 : -1.0};
+}
+
+double tap(Parameter3 p, VaryingIpc::Offset d) {
+    const LinearTap t = linear_tap(d);
+    return t.constant + t.by_alpha * p.alpha + t.by_alpha_prime * p.alpha_prime +
+           t.by_alpha_plus * p.alpha_plus;
+}
+
+WFPSF_VECTORISED void fill_row(LinearTap t, const double *alpha, const double *alpha_prime,
+                               const double *alpha_plus, int64_t count, double *__restrict taps) {
+    for (int64_t i = 0; i < count; ++i)
+        taps[i] = t.constant + t.by_alpha * alpha[i] + t.by_alpha_prime * alpha_prime[i] +
+                  t.by_alpha_plus * alpha_plus[i];
 }
 
 // K^ is real and linear in the cosines of both frequencies: it is extreme at their corners.
@@ -65,13 +83,10 @@ void SurfacePolynomial::row(int64_t nx, int64_t ny, int64_t y, double *values) c
     for (size_t i = 0; i <= degree_; ++i)
         for (size_t j = degree_ - i + 1; j-- > 0;)
             along[i] = along[i] * Y + coefficients_[(i + j) * (i + j + 1) / 2 + j];
-    for (int64_t x = 0; x < nx; ++x) {
-        const double X = coordinate(x, nx);
-        double value = 0;
-        for (size_t i = degree_ + 1; i-- > 0;)
-            value = value * X + along[i];
-        values[x] = value;
-    }
+    std::fill_n(values, nx, along[degree_]);
+    for (size_t i = degree_; i-- > 0;)
+        for (int64_t x = 0; x < nx; ++x)
+            values[x] = values[x] * coordinate(x, nx) + along[i];
 }
 
 void VaryingIpc::parameters(int64_t y, View<double> rows) const {
@@ -224,17 +239,11 @@ void VaryingIpc::taps(int64_t y, View<double> taps) const {
         }
         return;
     }
-    // The parameters stand where taps are written last: in the last three rows of at least five.
-    const View<double> rows{taps.row(count - 3), nx_, 3, 1, taps.stride_y};
-    parameters(y, rows);
-    std::array<double, 9> own{};
-    for (int64_t x = 0; x < nx_; ++x) {
-        const Parameter3 p{rows(x, 0), rows(x, 1), rows(x, 2)};
-        for (size_t k = 0; k < offsets_.size(); ++k)
-            own[k] = tap(p, offsets_[k]);
-        for (int64_t k = 0; k < count; ++k)
-            taps(x, k) = own[static_cast<size_t>(k)];
-    }
+    std::vector<double> memory(static_cast<size_t>(3 * nx_));
+    parameters(y, {memory.data(), nx_, 3, 1, nx_});
+    for (int64_t k = 0; k < count; ++k)
+        fill_row(linear_tap(offsets_[static_cast<size_t>(k)]), memory.data(), memory.data() + nx_,
+                 memory.data() + 2 * nx_, nx_, taps.row(k));
 }
 
 } // namespace wfpsf

@@ -115,8 +115,12 @@ template <class T> class VaryingPass {
             std::fill_n(row, taps_.nx(), 0);
             return;
         }
-        for (int64_t x = 0; x < in_.nx; ++x)
-            row[x_.reach + x] = static_cast<double>(in_(x, source));
+        const T *from = in_.row(source);
+        if (in_.stride_x == 1)
+            std::copy_n(from, in_.nx, row + x_.reach);
+        else
+            for (int64_t x = 0; x < in_.nx; ++x)
+                row[x_.reach + x] = static_cast<double>(from[x * in_.stride_x]);
         fill_margins(row, [&](int64_t x) { return x < 0 ? 0 : row[x_.reach + x]; });
     }
 
@@ -130,8 +134,13 @@ template <class T> class VaryingPass {
     }
 
     void store(int64_t j, View<T> out) {
-        for (int64_t i = 0; i < x_.count; ++i)
-            out(i, j) = static_cast<T>(sum_(i, 0));
+        const double *sum = sum_.view().row(0);
+        T *to = out.row(j);
+        if (out.stride_x == 1)
+            std::transform(sum, sum + x_.count, to, [](double s) { return static_cast<T>(s); });
+        else
+            for (int64_t i = 0; i < x_.count; ++i)
+                to[i * out.stride_x] = static_cast<T>(sum[i]);
     }
 
     const VaryingIpc &ipc_;
