@@ -5,10 +5,12 @@
 #include "detector/default_chain.hpp"
 #include "detector/ipc_solve.hpp"
 #include "detector/noise.hpp"
+#include "detector/varying_ipc.hpp"
 #include "harness.hpp"
 #include "numerics/plane_filter.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <cstdio>
@@ -132,6 +134,60 @@ Case inverse_case(const char *name, double alpha, Edge edge) {
             }};
 }
 
+// alpha rises over the detector, the rest is constant.
+VaryingIpc varying() {
+    return VaryingIpc::parametric(n, n,
+                                  {SurfacePolynomial(1, std::array{0.02, 0.002, 0.001}),
+                                   SurfacePolynomial(0, std::array{0.002}),
+                                   {}});
+}
+
+// Against the definition, one pixel's kernel at a time.
+Case varying_case(const char *name, IpcForm form) {
+    return {name, "largest pixel error / largest pixel", 0, 1e-15, [=] {
+                const VaryingIpc ipc = varying();
+                const Plane<double> in = charges<double>();
+                Plane<double> out = in;
+                Measured m;
+                m.baseline = "a plain copy";
+                m.baseline_s = time([&] { copy(in, out); }).median_s;
+                m.timing = time([&] { convolve(ipc, in.view(), {.form = form}, out.view()); });
+                for (int64_t y = 1; y < n - 1; y += 97)
+                    for (int64_t x = 1; x < n - 1; x += 389) {
+                        const int sign = form == IpcForm::scatter ? -1 : 1;
+                        long double sum = 0;
+                        for (int64_t dy = -1; dy <= 1; ++dy)
+                            for (int64_t dx = -1; dx <= 1; ++dx) {
+                                const int64_t i = x + sign * dx, j = y + sign * dy;
+                                const IpcKernel own =
+                                    form == IpcForm::scatter ? ipc.kernel(i, j) : ipc.kernel(x, y);
+                                sum += static_cast<long double>(own(dx, dy)) * in(i, j);
+                            }
+                        m.error = std::max(m.error,
+                                           static_cast<double>(std::abs(sum - out(x, y))) / full);
+                    }
+                return m;
+            }};
+}
+
+Case varying_inverse_case() {
+    return {"inverse of varying IPC on 4088^2, alpha = 0.017..0.023",
+            "largest pixel error / largest pixel", 0, 1e-12, [] {
+                const VaryingIpc ipc = varying();
+                const Plane<double> in = charges<double>();
+                Plane<double> seen(n, n), found(n, n);
+                convolve(ipc, in.view(), {}, seen.view());
+                Measured m;
+                m.timing = time([&] {
+                    solve_ipc(ipc, std::as_const(seen).view(), {}, {}, false, found.view());
+                });
+                for (int64_t y = 0; y < n; ++y)
+                    for (int64_t x = 0; x < n; ++x)
+                        m.error = std::max(m.error, std::abs(found(x, y) - in(x, y)) / full);
+                return m;
+            }};
+}
+
 Case neumann_case(double alpha, int64_t order) {
     char name[80];
     std::snprintf(name, sizeof name, "IPC correction of order %d, alpha = %.2f, 512^2",
@@ -210,7 +266,15 @@ std::vector<Case> ipc_cases() {
         ipc_case<double>("IPC 3x3 on 4088^2, float64", 0, kernel, {}, Peer::fft),
         ipc_case<double>("IPC 3x3 on 4088^2, float64, taps 32 apart", 0, kernel, {.tap_step = 32}),
         inverse_case("exact IPC inverse on 4088^2, alpha = 0.02", 0.02, Edge::zero),
-        inverse_case("exact IPC inverse on 4088^2, alpha = 0.12, periodic", 0.12, Edge::wrap)};
+        inverse_case("exact IPC inverse on 4088^2, alpha = 0.12", 0.12, Edge::zero),
+        inverse_case("exact IPC inverse on 4088^2, alpha = 0.12, periodic", 0.12, Edge::wrap),
+        inverse_case("exact IPC inverse on 4088^2, alpha = 0.12, replicated", 0.12,
+                     Edge::replicate),
+        inverse_case("exact IPC inverse on 4088^2, alpha = 0.124", 0.124, Edge::zero),
+        inverse_case("exact IPC inverse on 4088^2, alpha = 0.1248", 0.1248, Edge::zero),
+        varying_case("varying IPC on 4088^2, float64, scatter", IpcForm::scatter),
+        varying_case("varying IPC on 4088^2, float64, gather", IpcForm::gather),
+        varying_inverse_case()};
     for (const double alpha : {0.01, 0.02, 0.05})
         for (const int64_t order : {1, 2, 4, 8})
             cases.push_back(neumann_case(alpha, order));

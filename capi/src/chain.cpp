@@ -23,14 +23,6 @@ RandomSource random_source(const wfpsf_options *options) {
             .y0 = static_cast<int64_t>(option(options, WFPSF_OPTION_ORIGIN_Y))};
 }
 
-std::span<const double> parameters_of(int64_t count, const double *parameters) {
-    if (count < 0)
-        fail(WFPSF_ERROR_SIZE, "count = %lld: must be >= 0", static_cast<long long>(count));
-    if (count > 0)
-        require_pointer(parameters, "parameters");
-    return {parameters, static_cast<size_t>(count)};
-}
-
 int threads_of(const wfpsf_options *options) {
     return static_cast<int>(option(options, WFPSF_OPTION_THREADS));
 }
@@ -68,7 +60,8 @@ wfpsf_status wfpsf_chain_add(wfpsf_chain *chain, int32_t step, int64_t count,
                              const double *parameters) {
     return guarded([&] {
         require_pointer(chain, "chain");
-        chain->chain.add(static_cast<StepKind>(step), parameters_of(count, parameters));
+        chain->chain.add(static_cast<StepKind>(step),
+                         array_of(count, parameters, "count", "parameters"));
     });
 }
 
@@ -80,13 +73,24 @@ wfpsf_status wfpsf_chain_add_ipc(wfpsf_chain *chain, const wfpsf_ipc_kernel *ker
     });
 }
 
+wfpsf_status wfpsf_chain_add_varying_ipc(wfpsf_chain *chain, const wfpsf_varying_ipc *varying,
+                                         int32_t form, int32_t edge) {
+    return guarded([&] {
+        require_pointer(chain, "chain");
+        require_pointer(varying, "varying");
+        if (form != WFPSF_IPC_SCATTER && form != WFPSF_IPC_GATHER)
+            fail(WFPSF_ERROR_ARGUMENT, "form = %d: must be WFPSF_IPC_SCATTER or _GATHER", form);
+        chain->chain.add_ipc(varying->ipc, static_cast<IpcForm>(form), static_cast<Edge>(edge));
+    });
+}
+
 wfpsf_status wfpsf_chain_add_map(wfpsf_chain *chain, int32_t step, int64_t count,
                                  const double *parameters, const wfpsf_image *map) {
     return guarded([&] {
         require_pointer(chain, "chain");
         require_pointer(map, "map");
-        chain->chain.add_map(static_cast<StepKind>(step), parameters_of(count, parameters),
-                             map->image);
+        chain->chain.add_map(static_cast<StepKind>(step),
+                             array_of(count, parameters, "count", "parameters"), map->image);
     });
 }
 
@@ -97,16 +101,12 @@ wfpsf_status wfpsf_chain_step(const wfpsf_chain *chain, int64_t index, int64_t c
         require_pointer(step, "step");
         if (index < 0)
             fail(WFPSF_ERROR_RANGE, "index = %lld: must be >= 0", static_cast<long long>(index));
-        if (capacity < 0)
-            fail(WFPSF_ERROR_SIZE, "capacity = %lld: must be >= 0",
-                 static_cast<long long>(capacity));
-        if (capacity > 0)
-            require_pointer(parameters, "parameters");
+        const auto room = array_of(capacity, parameters, "capacity", "parameters");
         const auto steps = chain->chain.steps();
         const bool there = index < std::ssize(steps);
         const std::vector<double> none;
         const auto &numbers = there ? steps[static_cast<size_t>(index)].parameters : none;
-        std::copy_n(numbers.begin(), std::min(capacity, std::ssize(numbers)), parameters);
+        std::copy_n(numbers.begin(), std::min(room.size(), numbers.size()), room.begin());
         if (count)
             *count = std::ssize(numbers);
         *step = there ? static_cast<int32_t>(steps[static_cast<size_t>(index)].kind) : 0;
@@ -123,20 +123,16 @@ wfpsf_status wfpsf_chain_apply(const wfpsf_chain *chain, wfpsf_image *image, int
     return guarded([&] {
         require_pointer(chain, "chain");
         require_pointer(image, "image");
-        if (previous_count < 0)
-            fail(WFPSF_ERROR_SIZE, "previous_count = %lld: must be >= 0",
-                 static_cast<long long>(previous_count));
-        if (previous_count > 0)
-            require_pointer(previous, "previous");
         std::vector<PreviousImage> before;
-        for (int64_t k = 0; k < previous_count; ++k) {
-            require_pointer(previous[k], "previous[]");
-            before.push_back(std::as_const(previous[k]->image).pixels());
+        for (const wfpsf_image *exposure :
+             array_of(previous_count, previous, "previous_count", "previous")) {
+            require_pointer(exposure, "previous[]");
+            const size_t k = before.size();
+            before.push_back(exposure->image.pixels());
             std::visit(
                 [&](const auto &a, const auto &b) {
                     if (shares_memory(a, b))
-                        fail(WFPSF_ERROR_OVERLAP, "previous[%lld] shares memory with image",
-                             static_cast<long long>(k));
+                        fail(WFPSF_ERROR_OVERLAP, "previous[%zu] shares memory with image", k);
                 },
                 before.back(), image->image.pixels());
         }

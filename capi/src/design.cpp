@@ -74,11 +74,7 @@ wfpsf_status wfpsf_design_add_band(wfpsf_design *design, const char *name, doubl
                                    double step_nm, int64_t count, const double *throughput) {
     return change(design, [&](Design &d) {
         require_pointer(name, "name");
-        if (count < 0)
-            fail(WFPSF_ERROR_SIZE, "count = %lld: must be >= 0", static_cast<long long>(count));
-        if (count > 0)
-            require_pointer(throughput, "throughput");
-        d.add_band(name, first_nm, step_nm, {throughput, static_cast<size_t>(count)});
+        d.add_band(name, first_nm, step_nm, array_of(count, throughput, "count", "throughput"));
     });
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <exception>
 #include <new>
+#include <span>
 #include <type_traits>
 
 namespace wfpsf {
@@ -42,6 +43,17 @@ inline void require_pointer(const void *pointer, const char *argument) {
 inline void require_finite(double value, const char *argument) {
     if (!std::isfinite(value))
         fail(WFPSF_ERROR_NOT_FINITE, "%s = %g: must be finite", argument, value);
+}
+
+// A caller's array: its count must not be negative, and it may be NULL if that is 0.
+template <class T>
+std::span<T> array_of(int64_t count, T *first, const char *count_argument, const char *argument) {
+    if (count < 0)
+        fail(WFPSF_ERROR_SIZE, "%s = %lld: must be >= 0", count_argument,
+             static_cast<long long>(count));
+    if (count > 0)
+        require_pointer(first, argument);
+    return {first, static_cast<size_t>(count)};
 }
 
 } // namespace wfpsf

@@ -4,6 +4,7 @@
 
 #include "detector/chain.hpp"
 #include "detector/ipc_kernel.hpp"
+#include "detector/varying_ipc.hpp"
 #include "image/image.hpp"
 #include "instrument/instrument.hpp"
 #include "optics/otf.hpp"
@@ -48,6 +49,10 @@ struct wfpsf_otf {
 struct wfpsf_ipc_kernel {
     wfpsf::IpcKernel kernel;
     wfpsf::Effect effect; // what its application is recorded as
+};
+
+struct wfpsf_varying_ipc {
+    std::shared_ptr<const wfpsf::VaryingIpc> ipc; // chains share it
 };
 
 struct wfpsf_chain {

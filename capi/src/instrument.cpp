@@ -77,13 +77,9 @@ wfpsf_status wfpsf_instrument_throughput(const wfpsf_instrument *instrument, con
     return guarded([&] {
         require_pointer(instrument, "instrument");
         require_pointer(band, "band");
-        if (count < 0)
-            fail(WFPSF_ERROR_SIZE, "count = %lld: must be >= 0", static_cast<long long>(count));
+        array_of(count, wavelength_nm, "count", "wavelength_nm");
+        array_of(count, throughput, "count", "throughput");
         const Band &b = instrument->instrument.band(band);
-        if (count > 0) {
-            require_pointer(wavelength_nm, "wavelength_nm");
-            require_pointer(throughput, "throughput");
-        }
         // Nothing is written unless all is well.
         for (int64_t i = 0; i < count; ++i)
             if (!std::isfinite(wavelength_nm[i]))
@@ -98,14 +94,9 @@ wfpsf_status wfpsf_instrument_zernikes(const wfpsf_instrument *instrument, int32
                                        int64_t capacity, double *coefficients, int64_t *count) {
     return guarded([&] {
         require_pointer(instrument, "instrument");
-        if (capacity < 0)
-            fail(WFPSF_ERROR_SIZE, "capacity = %lld: must be >= 0",
-                 static_cast<long long>(capacity));
-        if (capacity > 0)
-            require_pointer(coefficients, "coefficients");
+        const auto room = array_of(capacity, coefficients, "capacity", "coefficients");
         const auto zernikes = instrument->instrument.zernikes(sca);
-        const auto n = std::min<size_t>(zernikes.size(), static_cast<size_t>(capacity));
-        std::copy_n(zernikes.begin(), n, coefficients);
+        std::copy_n(zernikes.begin(), std::min(zernikes.size(), room.size()), room.begin());
         if (count)
             *count = static_cast<int64_t>(zernikes.size());
     });

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "detector/ipc_solve.hpp"
-#include "funnel.hpp"
-#include "handles.hpp"
+#include "ipc_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <utility>
 #include <variant>
@@ -14,41 +11,14 @@ using namespace wfpsf;
 
 namespace {
 
-KernelOptions kernel_options(const wfpsf_options *options) {
-    return {.allow_negative = flag(options, WFPSF_OPTION_KERNEL_NEGATIVE),
-            .normalise = flag(options, WFPSF_OPTION_KERNEL_NORMALISE)};
-}
-
 // The kernel as a convolution, in the form that is asked for.
 IpcKernel in_form(const wfpsf_ipc_kernel *kernel, const wfpsf_options *options) {
     return flag(options, WFPSF_OPTION_IPC_FORM) ? kernel->kernel.flipped() : kernel->kernel;
 }
 
 Convolution convolution(const wfpsf_image *in, int32_t edge, const wfpsf_options *options) {
-    if (edge < WFPSF_EDGE_ZERO || edge > WFPSF_EDGE_VALID)
-        fail(WFPSF_ERROR_ARGUMENT, "edge = %d: must be one of WFPSF_EDGE_*, %d..%d", edge,
-             WFPSF_EDGE_ZERO, WFPSF_EDGE_VALID);
-    return {static_cast<Edge>(edge), option(options, WFPSF_OPTION_IPC_FILL),
-            in->image.oversampling(), static_cast<int>(option(options, WFPSF_OPTION_THREADS))};
-}
-
-// call(from, to) on the pixels of two images of one type.
-template <class Call> void with_pixels(const wfpsf_image *in, wfpsf_image *out, Call &&call) {
-    std::visit(
-        [&](auto from, auto to) {
-            if constexpr (std::is_same_v<decltype(from), View<const float>> ==
-                          std::is_same_v<decltype(to), View<float>>)
-                call(from, to);
-            else
-                fail(WFPSF_ERROR_TYPE, "out: must have the pixel type of in");
-        },
-        in->image.pixels(), out->image.pixels());
-}
-
-void copy_record(const wfpsf_image *from, wfpsf_image *to) {
-    to->image.set_oversampling(from->image.oversampling());
-    to->image.set_pixel_scale_arcsec(from->image.pixel_scale_arcsec());
-    to->image.set_applied(from->image.applied());
+    return {checked_edge(edge), option(options, WFPSF_OPTION_IPC_FILL), in->image.oversampling(),
+            static_cast<int>(option(options, WFPSF_OPTION_THREADS))};
 }
 
 double property(const IpcKernel &kernel, int32_t key) {
@@ -275,7 +245,7 @@ wfpsf_status wfpsf_ipc_kernel_transform(const wfpsf_ipc_kernel *kernel, double f
 }
 
 wfpsf_status wfpsf_ipc_apply(const wfpsf_ipc_kernel *kernel, const wfpsf_image *in, int32_t edge,
-                             const wfpsf_options *options, wfpsf_image *out) {
+                             const wfpsf_options *options, wfpsf_image *out, int64_t *not_finite) {
     return guarded([&] {
         require_pointer(kernel, "kernel");
         require_pointer(in, "in");
@@ -286,6 +256,8 @@ wfpsf_status wfpsf_ipc_apply(const wfpsf_ipc_kernel *kernel, const wfpsf_image *
         with_pixels(in, out, [&](auto from, auto to) { convolve(applied, from, how, to); });
         copy_record(in, out);
         out->image.record_applied(kernel->effect);
+        if (not_finite)
+            *not_finite = not_finite_in(out);
     });
 }
 
@@ -314,10 +286,7 @@ wfpsf_status wfpsf_ipc_correct(const wfpsf_ipc_kernel *kernel, const wfpsf_image
         require_pointer(out, "out");
         const Convolution how = convolution(in, edge, options);
         in->image.require_not_applied(Effect::ipc_correction, flag(options, WFPSF_OPTION_FORCE));
-        const SolveLimits limits{
-            .least_margin = option(options, WFPSF_OPTION_IPC_LEAST_MARGIN),
-            .tolerance = option(options, WFPSF_OPTION_IPC_TOLERANCE),
-            .most_passes = static_cast<int64_t>(option(options, WFPSF_OPTION_IPC_MAX_PASSES))};
+        const SolveLimits limits = solve_limits(options);
         const IpcKernel applied = in_form(kernel, options);
         Solution solution;
         with_pixels(in, out, [&](auto from, auto to) {
@@ -325,20 +294,7 @@ wfpsf_status wfpsf_ipc_correct(const wfpsf_ipc_kernel *kernel, const wfpsf_image
         });
         copy_record(in, out);
         out->image.record_applied(Effect::ipc_correction);
-        if (residual)
-            *residual = solution.residual;
-        if (noise_amplification)
-            *noise_amplification = solution.noise_amplification;
-        if (passes)
-            *passes = solution.passes;
-        if (not_finite)
-            *not_finite = solution.not_finite;
-        if (solution.converged)
-            return wfpsf_status{WFPSF_OK};
-        char line[128];
-        std::snprintf(line, sizeof line, "residual = %.3g after %lld passes: IPC_TOLERANCE is %g",
-                      solution.residual, static_cast<long long>(solution.passes), limits.tolerance);
-        return record_error(WFPSF_WARNING_NOT_CONVERGED, line);
+        return report(solution, limits, residual, noise_amplification, passes, not_finite);
     });
 }
 

@@ -64,14 +64,10 @@ wfpsf_status wfpsf_otf_values(const wfpsf_otf *otf, int32_t response, int64_t co
     return guarded([&] {
         require_pointer(otf, "otf");
         require_response(response);
-        if (count < 0)
-            fail(WFPSF_ERROR_SIZE, "count = %lld: must be >= 0", static_cast<long long>(count));
-        if (count > 0) {
-            require_pointer(kx, "kx");
-            require_pointer(ky, "ky");
-            require_pointer(re, "re");
-            require_pointer(im, "im");
-        }
+        array_of(count, kx, "count", "kx");
+        array_of(count, ky, "count", "ky");
+        array_of(count, re, "count", "re");
+        array_of(count, im, "count", "im");
         for (int64_t i = 0; i < count; ++i)
             for (const auto &[name, value] : {std::pair("kx", kx[i]), std::pair("ky", ky[i])})
                 if (!std::isfinite(value))

@@ -113,13 +113,9 @@ void require_scale(double pixel_scale_arcsec, const Image &image, const char *ar
 
 std::vector<Star> checked_stars(int64_t count, const double *x, const double *y,
                                 const double *flux) {
-    if (count < 0)
-        fail(WFPSF_ERROR_SIZE, "count = %lld: must be >= 0", static_cast<long long>(count));
-    if (count > 0) {
-        require_pointer(x, "x");
-        require_pointer(y, "y");
-        require_pointer(flux, "flux");
-    }
+    array_of(count, x, "count", "x");
+    array_of(count, y, "count", "y");
+    array_of(count, flux, "count", "flux");
     std::vector<Star> stars;
     for (int64_t i = 0; i < count; ++i) {
         for (const auto &[name, value] :

@@ -22,21 +22,14 @@ template <class Make> wfpsf_status create(wfpsf_sed **out, Make make) {
     });
 }
 
-std::span<const double> numbers(int64_t count, const double *first, const char *argument) {
-    if (count < 0)
-        fail(WFPSF_ERROR_SIZE, "count = %lld: must be >= 0", static_cast<long long>(count));
-    if (count > 0)
-        require_pointer(first, argument);
-    return {first, static_cast<size_t>(count)};
-}
-
 } // namespace
 
 wfpsf_status wfpsf_sed_create_table(int32_t unit, int64_t count, const double *wavelength_nm,
                                     const double *density, wfpsf_sed **out) {
     return create(out, [&] {
-        return tabulated_sed(unit_of(unit), numbers(count, wavelength_nm, "wavelength_nm"),
-                             numbers(count, density, "density"));
+        return tabulated_sed(unit_of(unit),
+                             array_of(count, wavelength_nm, "count", "wavelength_nm"),
+                             array_of(count, density, "count", "density"));
     });
 }
 
@@ -63,7 +56,7 @@ wfpsf_status wfpsf_sed_photon_density(const wfpsf_sed *sed, int64_t count,
                                       const double *wavelength_nm, double *photons) {
     return guarded([&] {
         require_pointer(sed, "sed");
-        const std::span<const double> nm = numbers(count, wavelength_nm, "wavelength_nm");
+        const std::span<const double> nm = array_of(count, wavelength_nm, "count", "wavelength_nm");
         if (count > 0)
             require_pointer(photons, "photons");
         // Nothing is written unless all is well.

@@ -112,7 +112,7 @@ IpcKernel diffusion_kernel(double sigma) {
 }
 
 bool is_pixelwise(const Step &step) {
-    return !step.kernel.has_value();
+    return !step.kernel && !step.varying;
 }
 
 // A block of a row on its way through the steps of one pass.
@@ -286,8 +286,12 @@ ChainCounts run_steps(std::span<const Step> steps, const ChainRun &how, View<T> 
         return counts;
     for (size_t next = 0; next < steps.size();) {
         if (!is_pixelwise(steps[next])) {
-            convolve(*steps[next].kernel, image, {.edge = steps[next].edge, .threads = how.threads},
-                     image);
+            const Step &step = steps[next];
+            if (step.varying)
+                convolve(*step.varying, View<const T>(image),
+                         {.form = step.form, .edge = step.edge, .threads = how.threads}, image);
+            else
+                convolve(*step.kernel, image, {.edge = step.edge, .threads = how.threads}, image);
             ++next;
             continue;
         }
@@ -300,9 +304,7 @@ ChainCounts run_steps(std::span<const Step> steps, const ChainRun &how, View<T> 
                                            [&](const Block &block) { return together.run(block); });
         next = end;
     }
-    for (int64_t y = 0; y < image.ny; ++y)
-        for (int64_t x = 0; x < image.nx; ++x)
-            counts.not_finite += std::isfinite(image(x, y)) ? 0 : 1;
+    counts.not_finite = count_not_finite(image);
     return counts;
 }
 
@@ -339,22 +341,43 @@ void Chain::append(Step step) {
 
 void Chain::add(StepKind kind, std::span<const double> parameters) {
     check(describe(kind), Takes::numbers, parameters);
-    Step step{kind, {parameters.begin(), parameters.end()}, {}, Edge::zero, {}};
+    Step step{.kind = kind, .parameters = {parameters.begin(), parameters.end()}};
     if (kind == StepKind::charge_diffusion)
         step.kernel = diffusion_kernel(parameters[0]);
     append(std::move(step));
 }
 
-void Chain::add_ipc(const IpcKernel &kernel, Edge edge) {
+namespace {
+
+void require_edge(Edge edge) {
     if (edge < Edge::zero || edge > Edge::crop)
         fail(WFPSF_ERROR_ARGUMENT, "edge = %d: must be zero, replicate, wrap or crop, %d..%d",
              static_cast<int>(edge), static_cast<int>(Edge::zero), static_cast<int>(Edge::crop));
-    append({StepKind::ipc, {}, kernel, edge, {}});
+}
+
+} // namespace
+
+void Chain::add_ipc(const IpcKernel &kernel, Edge edge) {
+    require_edge(edge);
+    Step step{.kind = StepKind::ipc};
+    step.kernel = kernel;
+    step.edge = edge;
+    append(std::move(step));
+}
+
+void Chain::add_ipc(std::shared_ptr<const VaryingIpc> ipc, IpcForm form, Edge edge) {
+    require_edge(edge);
+    Step step{.kind = StepKind::ipc};
+    step.varying = std::move(ipc);
+    step.form = form;
+    step.edge = edge;
+    append(std::move(step));
 }
 
 void Chain::add_map(StepKind kind, std::span<const double> parameters, const Image &map) {
     check(describe(kind), Takes::map, parameters);
-    Step step{kind, {parameters.begin(), parameters.end()}, {}, Edge::zero, {map.nx(), map.ny()}};
+    Step step{.kind = kind, .parameters = {parameters.begin(), parameters.end()}};
+    step.map = {map.nx(), map.ny()};
     std::visit(
         [&](const auto &pixels) {
             for (int64_t y = 0; y < pixels.ny; ++y)
@@ -376,6 +399,8 @@ ChainCounts Chain::run(const ChainRun &how, Image &image) const {
             image.require_not_applied(effect, how.force);
         if (describe(step.kind).takes == Takes::map)
             require_size("a map of the chain", step.map.nx(), step.map.ny(), image);
+        if (step.varying)
+            require_size("varying IPC of the chain", step.varying->nx(), step.varying->ny(), image);
     }
     for (const PreviousImage &previous : how.previous)
         std::visit(

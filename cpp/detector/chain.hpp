@@ -5,8 +5,10 @@
 
 #include "detector/ipc_convolve.hpp"
 #include "detector/random.hpp"
+#include "detector/varying_ipc.hpp"
 #include "image/image.hpp"
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -28,7 +30,7 @@ enum class StepKind : int32_t {
     nonlinearity = 90,          // [c2, c3, ...]
     nonlinearity_inverse = 100, // [c2, c3, ...]
     capacitance_map = 110,      // a map that divides: V = Q / C
-    ipc = 120,                  // a kernel
+    ipc = 120,                  // a kernel, or one for each pixel
     read_noise = 130,           // [rms]
     saturation = 140,           // [level]
     gain = 150,                 // [e-/ADU]: divides
@@ -37,10 +39,12 @@ enum class StepKind : int32_t {
 
 struct Step {
     StepKind kind;
-    std::vector<double> parameters;
-    std::optional<IpcKernel> kernel; // of ipc and charge diffusion
+    std::vector<double> parameters = {};
+    std::optional<IpcKernel> kernel = {};           // of ipc and charge diffusion
+    std::shared_ptr<const VaryingIpc> varying = {}; // or of ipc in place of the kernel
+    IpcForm form = IpcForm::scatter;                // of the varying one
     Edge edge = Edge::zero;
-    Plane<float> map;
+    Plane<float> map = {};
 };
 
 using PreviousImage = Image::ConstPixels;
@@ -66,6 +70,7 @@ class Chain {
     // is in the chain already: WFPSF_ERROR_ALREADY_APPLIED.
     void add(StepKind kind, std::span<const double> parameters);
     void add_ipc(const IpcKernel &kernel, Edge edge);
+    void add_ipc(std::shared_ptr<const VaryingIpc> ipc, IpcForm form, Edge edge);
     void add_map(StepKind kind, std::span<const double> parameters, const Image &map);
 
     std::span<const Step> steps() const { return steps_; }

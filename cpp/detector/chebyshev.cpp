@@ -13,7 +13,7 @@ namespace {
 // Reciprocals of the roots of Chebyshev's polynomial over the spectrum, in Leja's order, which
 // keeps the partial products small: the next root is the one farthest from those before it, as a
 // product.
-std::vector<double> weights_of_cycle(Spectrum spectrum, int64_t count) {
+std::vector<double> weights_of_cycle(SpectralInterval spectrum, int64_t count) {
     const double middle = (spectrum.highest + spectrum.lowest) / 2;
     const double half = (spectrum.highest - spectrum.lowest) / 2;
     std::vector<double> roots, product(static_cast<size_t>(count), 1), weights;
@@ -31,7 +31,7 @@ std::vector<double> weights_of_cycle(Spectrum spectrum, int64_t count) {
 
 } // namespace
 
-int64_t chebyshev_passes(Spectrum spectrum, double factor) {
+int64_t chebyshev_passes(SpectralInterval spectrum, double factor) {
     const double middle = (spectrum.highest + spectrum.lowest) / 2;
     const double half = (spectrum.highest - spectrum.lowest) / 2;
     if (half <= 1e-15 * middle)
@@ -40,7 +40,7 @@ int64_t chebyshev_passes(Spectrum spectrum, double factor) {
 }
 
 Iteration solve_by_chebyshev(const std::function<void(double weight)> &step,
-                             const std::function<double()> &residual, Spectrum spectrum,
+                             const std::function<double()> &residual, SpectralInterval spectrum,
                              double tolerance, int64_t most_passes) {
     constexpr int64_t longest_cycle = 64;
     constexpr double rounding = 1e-12; // below it a residual that shrinks no more is at its floor

@@ -8,12 +8,12 @@
 
 namespace wfpsf {
 
-struct Spectrum {
+struct SpectralInterval {
     double lowest, highest; // 0 < lowest <= highest
 };
 
 // Passes that shrink the error by `factor`, by theory.
-int64_t chebyshev_passes(Spectrum spectrum, double factor);
+int64_t chebyshev_passes(SpectralInterval spectrum, double factor);
 
 struct Iteration {
     double residual = 0; // as the caller measures it
@@ -23,7 +23,7 @@ struct Iteration {
 
 // step(weight) moves x by weight (b - A x). residual() is a norm of b - A x over one of b.
 Iteration solve_by_chebyshev(const std::function<void(double weight)> &step,
-                             const std::function<double()> &residual, Spectrum spectrum,
+                             const std::function<double()> &residual, SpectralInterval spectrum,
                              double tolerance, int64_t most_passes);
 
 } // namespace wfpsf

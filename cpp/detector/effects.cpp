@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "detector/effects.hpp"
 
+#include "numerics/dispatch.hpp"
+
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -49,7 +51,30 @@ double invert(std::span<const double> coefficients, double wanted) {
     return std::fabs(at.value - wanted) <= 1e-12 * std::fabs(wanted) ? x : nan;
 }
 
+// A difference from itself is 0, but of what is not finite NaN.
+template <class T> [[gnu::always_inline]] inline int64_t count_any(View<const T> image) {
+    int64_t count = 0;
+    for (int64_t y = 0; y < image.ny; ++y) {
+        const T *row = image.row(y);
+        if (image.stride_x == 1)
+            for (int64_t x = 0; x < image.nx; ++x)
+                count += row[x] - row[x] == 0 ? 0 : 1;
+        else
+            for (int64_t x = 0; x < image.nx; ++x)
+                count += std::isfinite(row[x * image.stride_x]) ? 0 : 1;
+    }
+    return count;
+}
+
 } // namespace
+
+WFPSF_VECTORISED int64_t count_not_finite(View<const float> image) {
+    return count_any(image);
+}
+
+WFPSF_VECTORISED int64_t count_not_finite(View<const double> image) {
+    return count_any(image);
+}
 
 void quantize(double unit, std::span<double> row) {
     if (unit == 1) {

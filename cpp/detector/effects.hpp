@@ -2,6 +2,8 @@
 // Effects that act on each pixel by itself, on rows of double; electrons unless stated.
 #pragma once
 
+#include "image/view.hpp"
+
 #include <cstdint>
 #include <span>
 
@@ -23,6 +25,10 @@ void nonlinearity_inverse(std::span<const double> coefficients, std::span<double
 
 // Pixels at or above the level are set to it and counted.
 int64_t saturate(double level, std::span<double> row);
+
+// Pixels that are NaN or infinite.
+int64_t count_not_finite(View<const float> image);
+int64_t count_not_finite(View<const double> image);
 
 // A trap model of past exposures: the current (e-/s) a time after a pixel held `level` electrons.
 // Above half_well A (level / x0)^a (time / 1000 s)^-r / (exp(-(level - x0) / dx) + 1); below,

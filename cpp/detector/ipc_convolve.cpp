@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "detector/ipc_convolve.hpp"
 
+#include "detector/ipc_border.hpp"
 #include "error/error.hpp"
 #include "image/overlap.hpp"
 #include "numerics/bands.hpp"
@@ -17,29 +18,6 @@
 namespace wfpsf {
 
 namespace {
-
-// One axis of the pass. Output i stands at input sample first + i; taps are `step` samples apart
-// and reach out to `reach` of them.
-struct Axis {
-    int64_t input_size, first, count, reach, step;
-    int64_t margin() const { return reach * step; }
-};
-
-int64_t floor_mod(int64_t i, int64_t n) {
-    return (i % n + n) % n;
-}
-
-// The input sample that stands at index i of an axis, -1 if there is none.
-int64_t source_index(int64_t i, const Axis &axis, Edge edge) {
-    const int64_t n = axis.input_size;
-    if (i >= 0 && i < n)
-        return i;
-    if (edge == Edge::wrap)
-        return floor_mod(i, n);
-    if (edge == Edge::replicate)
-        return floor_mod(i < 0 ? i : i - n, axis.step) + (i < 0 ? 0 : n - axis.step);
-    return -1;
-}
 
 struct Tap {
     int64_t dx, dy;
@@ -368,43 +346,6 @@ template <class T, class S> class Pass {
     std::array<std::array<T, block>, most_rows> buffer_;
 };
 
-void require_size(int64_t nx, int64_t ny, int64_t required_nx, int64_t required_ny) {
-    if (nx != required_nx || ny != required_ny)
-        fail(WFPSF_ERROR_SIZE, "out has %lld x %lld pixels: must have %lld x %lld",
-             static_cast<long long>(nx), static_cast<long long>(ny),
-             static_cast<long long>(required_nx), static_cast<long long>(required_ny));
-}
-
-// Steps longer than the image act as one of its length does, which bounds the margins.
-Axis make_axis(int64_t n, int64_t reach, int64_t tap_step, Edge edge) {
-    const int64_t step = edge == Edge::wrap ? (tap_step - 1) % n + 1 : std::min(tap_step, n);
-    Axis axis{n, 0, n, reach, step};
-    if (edge == Edge::crop || edge == Edge::fill || edge == Edge::valid) {
-        axis.first = axis.margin();
-        axis.count = std::max<int64_t>(n - 2 * axis.margin(), 0);
-    }
-    return axis;
-}
-
-template <class T, class Value>
-void set_border(const Axis &x_axis, const Axis &y_axis, Value value, View<T> out) {
-    const int64_t right = x_axis.first + x_axis.count;
-    for (int64_t y = 0; y < out.ny; ++y) {
-        const bool inside_y = y >= y_axis.first && y < y_axis.first + y_axis.count;
-        for (int64_t x = 0; x < out.nx; ++x) {
-            if (inside_y && x == x_axis.first)
-                x = right;
-            if (x < out.nx)
-                out(x, y) = value(x, y);
-        }
-    }
-}
-
-template <class T> bool are_same(View<const T> in, View<T> out) {
-    return in.data == out.data && in.nx == out.nx && in.ny == out.ny &&
-           in.stride_x == out.stride_x && in.stride_y == out.stride_y;
-}
-
 // The rows and columns x, y of in's pixels into out, whose first pixel is theirs.
 template <class T, class S>
 void run_passes(const TapList &kernel, View<const T> in, const Convolution &how, const Axis &x,
@@ -443,10 +384,7 @@ void convolve_any(View<const double> table, View<const T> in, const Convolution 
         fail(WFPSF_ERROR_RANGE, "fill = %g: too large for the pixel type", how.fill);
     const Axis x = make_axis(std::max<int64_t>(in.nx, 1), table.nx / 2, how.tap_step, edge);
     const Axis y = make_axis(std::max<int64_t>(in.ny, 1), table.ny / 2, how.tap_step, edge);
-    if (edge == Edge::valid)
-        require_size(out.nx, out.ny, in.nx == 0 ? 0 : x.count, in.ny == 0 ? 0 : y.count);
-    else
-        require_size(out.nx, out.ny, in.nx, in.ny);
+    require_out_size(in, x, y, edge, out);
     if (out.empty())
         return;
     const bool in_place = are_same(in, out);

@@ -93,6 +93,12 @@ class IpcKernel {
         return taps_(dx + reach_x(), dy + reach_y());
     }
 
+    double tap_or_zero(int64_t dx, int64_t dy) const { // any dx, dy
+        const bool is_within =
+            dx >= -reach_x() && dx <= reach_x() && dy >= -reach_y() && dy <= reach_y();
+        return is_within ? (*this)(dx, dy) : 0;
+    }
+
     View<const double> table() const { return taps_.view(); }
 
     double sum() const;

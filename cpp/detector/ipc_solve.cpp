@@ -2,6 +2,7 @@
 #include "detector/ipc_solve.hpp"
 
 #include "detector/chebyshev.hpp"
+#include "detector/ipc_sweep.hpp"
 #include "error/error.hpp"
 #include "image/interleave.hpp"
 #include "numerics/fft.hpp"
@@ -63,27 +64,17 @@ int64_t fine_grid(const IpcKernel &kernel) {
     return 2 * good_fft_length(std::max<int64_t>(16, 2 * std::max(kernel.nx(), kernel.ny())));
 }
 
-// The interval of the real parts; nothing if it does not lie right of 0.
-std::optional<Spectrum> spectrum_of(const IpcKernel &kernel) {
-    const Transform transform = transform_on_grid(kernel, fine_grid(kernel));
-    std::vector<std::complex<double>> values(static_cast<size_t>(transform.nx()));
-    Spectrum spectrum{HUGE_VAL, -HUGE_VAL};
-    for (int64_t k = 0; k < transform.ny(); ++k) {
-        transform(k, values.data());
-        for (const std::complex<double> value : values) {
-            spectrum.lowest = std::min(spectrum.lowest, value.real());
-            spectrum.highest = std::max(spectrum.highest, value.real());
-        }
-    }
-    return spectrum.lowest > 0 ? std::optional(spectrum) : std::nullopt;
+bool is_symmetric_3x3(const IpcKernel &kernel) {
+    const KernelAsymmetry asymmetry = kernel.asymmetry();
+    return std::max(kernel.nx(), kernel.ny()) <= 3 && asymmetry.left_right == 0 &&
+           asymmetry.up_down == 0;
 }
 
 // The continuation beyond the border under which a transform has the inverse exactly.
 std::optional<Continuation> continuation_of(const IpcKernel &kernel, Edge edge) {
     if (edge == Edge::wrap)
         return Continuation::periodic;
-    const KernelAsymmetry asymmetry = kernel.asymmetry();
-    if (std::max(kernel.nx(), kernel.ny()) > 3 || asymmetry.left_right > 0 || asymmetry.up_down > 0)
+    if (!is_symmetric_3x3(kernel))
         return std::nullopt;
     return edge == Edge::zero ? Continuation::odd : Continuation::even;
 }
@@ -95,6 +86,8 @@ template <class From, class To> void copy_pixels(View<From> from, View<To> to) {
 }
 
 void divide(const IpcKernel &kernel, Continuation continuation, double step, View<double> image) {
+    if (step == 1 && is_symmetric_3x3(kernel) && divide_by_sweeps(kernel, continuation, image))
+        return;
     std::vector<double> fx = filter_frequencies(continuation, image.nx, true);
     std::vector<double> fy = filter_frequencies(continuation, image.ny, false);
     for (auto *frequencies : {&fx, &fy})
@@ -154,9 +147,7 @@ Plane<double> scaled(const IpcKernel &kernel, double scale, double delta) {
 template <class T>
 Solution solve_any(const IpcKernel &kernel, View<const T> in, const Convolution &how,
                    const SolveLimits &limits, View<T> out) {
-    if (how.edge != Edge::zero && how.edge != Edge::replicate && how.edge != Edge::wrap)
-        fail(WFPSF_ERROR_ARGUMENT, "edge = %d: must be zero, replicate or wrap for an inverse",
-             static_cast<int>(how.edge));
+    require_invertible_edge(how.edge);
     if (in.nx != out.nx || in.ny != out.ny)
         fail(WFPSF_ERROR_SIZE, "out has %lld x %lld pixels: must have %lld x %lld",
              static_cast<long long>(out.nx), static_cast<long long>(out.ny),
@@ -186,17 +177,17 @@ Solution solve_any(const IpcKernel &kernel, View<const T> in, const Convolution 
         return largest(scratch.view()) / scale;
     };
 
-    // Single precision ends long before: an error of 1e-9 is lost in its rounding.
-    const double tolerance = std::max(limits.tolerance, std::is_same_v<T, float> ? 1e-9 : 1e-16);
-    const auto spectrum = spectrum_of(kernel);
+    const double tolerance = std::max(limits.tolerance, least_tolerance<T>);
+    const SpectralInterval spectrum = real_spectrum(kernel);
+    const bool is_positive = spectrum.lowest > 0;
     const auto continuation = continuation_of(kernel, how.edge);
-    constexpr int64_t many_passes = 40;
-    if (continuation && !(spectrum && chebyshev_passes(*spectrum, tolerance) <= many_passes)) {
+    constexpr int64_t many_passes = 20; // cost what a transform does, at least
+    if (continuation && !(is_positive && chebyshev_passes(spectrum, tolerance) <= many_passes)) {
         divide_by_phases(kernel, *continuation, how.tap_step, x);
         solution.residual = residual();
-    } else if (spectrum) {
+    } else if (is_positive) {
         const Iteration iteration =
-            solve_by_chebyshev(step, residual, *spectrum, tolerance, limits.most_passes);
+            solve_by_chebyshev(step, residual, spectrum, tolerance, limits.most_passes);
         solution.residual = iteration.residual;
         solution.passes = iteration.passes;
         solution.converged = iteration.converged;
@@ -212,6 +203,26 @@ Solution solve_any(const IpcKernel &kernel, View<const T> in, const Convolution 
 }
 
 } // namespace
+
+SpectralInterval real_spectrum(const IpcKernel &kernel) {
+    const Transform transform = transform_on_grid(kernel, fine_grid(kernel));
+    std::vector<std::complex<double>> values(static_cast<size_t>(transform.nx()));
+    SpectralInterval spectrum{HUGE_VAL, -HUGE_VAL};
+    for (int64_t k = 0; k < transform.ny(); ++k) {
+        transform(k, values.data());
+        for (const std::complex<double> value : values) {
+            spectrum.lowest = std::min(spectrum.lowest, value.real());
+            spectrum.highest = std::max(spectrum.highest, value.real());
+        }
+    }
+    return spectrum;
+}
+
+void require_invertible_edge(Edge edge) {
+    if (edge != Edge::zero && edge != Edge::replicate && edge != Edge::wrap)
+        fail(WFPSF_ERROR_ARGUMENT, "edge = %d: must be zero, replicate or wrap for an inverse",
+             static_cast<int>(edge));
+}
 
 // The mean of 1 / |K^|^2 over a grid converges as fast as the inverse's taps decay; the grid is
 // refined until it agrees.

@@ -2,6 +2,7 @@
 // The exact inverse of IPC: the image that gives the one observed.
 #pragma once
 
+#include "detector/chebyshev.hpp"
 #include "detector/ipc_convolve.hpp"
 
 namespace wfpsf {
@@ -11,6 +12,9 @@ struct SolveLimits {
     double tolerance = 1e-15;   // the residual to stop at
     int64_t most_passes = 1000;
 };
+
+// Single precision ends long before: an error of 1e-9 is lost in its rounding.
+template <class T> inline constexpr double least_tolerance = sizeof(T) == 4 ? 1e-9 : 1e-16;
 
 struct Solution {
     double residual = 0;            // max |in - K out| / max |in|
@@ -23,6 +27,12 @@ struct Solution {
 
 // rms of white noise of rms 1 after division by K^. Infinite where K^ is zero.
 double inverse_noise_amplification(const IpcKernel &kernel);
+
+// The interval of the real parts of K^.
+SpectralInterval real_spectrum(const IpcKernel &kernel);
+
+// Zero, replicate or wrap, or WFPSF_ERROR_ARGUMENT.
+void require_invertible_edge(Edge edge);
 
 // Edges zero, replicate and wrap, as convolve() has them. Solved by Chebyshev's iteration, or by a
 // transform where the iteration would be slow and a transform has it exact: a periodic image, or a

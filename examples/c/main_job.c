@@ -206,7 +206,7 @@ static struct table_row make_row(const wfpsf_instrument *instrument, int band, i
     wfpsf_ipc_kernel *kernel;
     check(wfpsf_ipc_kernel_create(0.02, 0.002, 0, options, &kernel));
     start = now_ms();
-    check(wfpsf_ipc_apply(kernel, optics, WFPSF_EDGE_ZERO, options, with_ipc));
+    check(wfpsf_ipc_apply(kernel, optics, WFPSF_EDGE_ZERO, options, with_ipc, NULL));
     row.ipc_ms = now_ms() - start;
     row.with_ipc = measure(with_ipc, options, mas_per_sample, row.error);
     progress("", "");

@@ -225,7 +225,7 @@ static void test_convolution(int nx, int ny, int step) {
             wfpsf_image *to = flipped ? wrap_flipped(out, nx, ny) : wrap(out, nx, ny);
             fill(out, nx * ny, NAN);
             CHECK_OK(wfpsf_image_set_record(from, step, 0.11, WFPSF_EFFECT_PIXEL_RESPONSE));
-            CHECK_OK(wfpsf_ipc_apply(kernel, from, edge, options, to));
+            CHECK_OK(wfpsf_ipc_apply(kernel, from, edge, options, to, NULL));
             check_record(to, step, 0.11, WFPSF_EFFECT_PIXEL_RESPONSE | WFPSF_EFFECT_IPC);
             for (int y = 0; y < ny; ++y)
                 for (int x = 0; x < nx; ++x) {
@@ -246,7 +246,7 @@ static void test_convolution(int nx, int ny, int step) {
         const int inner_nx = nx - 4 * step, inner_ny = ny - 2 * step;
         wfpsf_image *from = wrap_strided(in, nx, ny, 1, nx, step),
                     *to = wrap(out, inner_nx, inner_ny);
-        CHECK_OK(wfpsf_ipc_apply(kernel, from, WFPSF_EDGE_VALID, NULL, to));
+        CHECK_OK(wfpsf_ipc_apply(kernel, from, WFPSF_EDGE_VALID, NULL, to, NULL));
         for (int y = 0; y < inner_ny; ++y)
             for (int x = 0; x < inner_nx; ++x)
                 CHECK_NEAR(out[y * inner_nx + x],
@@ -271,14 +271,43 @@ static void test_float(void) {
     wfpsf_image *from = wrap(in, 9, 7), *to = wrap(out, 9, 7);
     wfpsf_image *single_from = wrap_float(single_in, 9, 7),
                 *single_to = wrap_float(single_out, 9, 7);
-    CHECK_OK(wfpsf_ipc_apply(kernel, from, WFPSF_EDGE_ZERO, NULL, to));
-    CHECK_OK(wfpsf_ipc_apply(kernel, single_from, WFPSF_EDGE_ZERO, NULL, single_to));
+    CHECK_OK(wfpsf_ipc_apply(kernel, from, WFPSF_EDGE_ZERO, NULL, to, NULL));
+    CHECK_OK(wfpsf_ipc_apply(kernel, single_from, WFPSF_EDGE_ZERO, NULL, single_to, NULL));
     for (int i = 0; i < 63; ++i) /* summed in double, rounded once */
         CHECK_NEAR((double)single_out[i], out[i], out[i] * (FLT_EPSILON / 2 + 1e-9));
     wfpsf_image_destroy(single_from);
     wfpsf_image_destroy(single_to);
     wfpsf_image_destroy(from);
     wfpsf_image_destroy(to);
+    wfpsf_ipc_kernel_destroy(kernel);
+}
+
+static void test_not_finite(void) {
+    double in[63], out[63];
+    float single_in[63], single_out[63];
+    int64_t not_finite = -1;
+    fill(in, 63, -1);
+    in[20] = NAN, in[0] = HUGE_VAL;
+    for (int i = 0; i < 63; ++i)
+        single_in[i] = (float)in[i];
+    wfpsf_ipc_kernel *kernel = paper_kernel(0.02, 0, 0);
+    wfpsf_image *from = wrap_flipped(in, 9, 7), *to = wrap(out, 9, 7);
+    wfpsf_image *single_from = wrap_float(single_in, 9, 7),
+                *single_to = wrap_float(single_out, 9, 7);
+    CHECK_OK(wfpsf_ipc_apply(kernel, from, WFPSF_EDGE_ZERO, NULL, to, &not_finite));
+    CHECK(not_finite == 5 + 3);
+    CHECK_OK(wfpsf_ipc_apply(kernel, single_from, WFPSF_EDGE_ZERO, NULL, single_to, &not_finite));
+    CHECK(not_finite == 5 + 3);
+    CHECK_OK(wfpsf_image_set_record(from, 1, 0, 0));
+    CHECK_OK(wfpsf_ipc_apply(kernel, from, WFPSF_EDGE_ZERO, NULL, from, NULL));
+    fill(in, 63, 1);
+    CHECK_OK(wfpsf_image_set_record(from, 1, 0, 0));
+    CHECK_OK(wfpsf_ipc_apply(kernel, from, WFPSF_EDGE_ZERO, NULL, from, &not_finite));
+    CHECK(not_finite == 0);
+    wfpsf_image_destroy(from);
+    wfpsf_image_destroy(to);
+    wfpsf_image_destroy(single_from);
+    wfpsf_image_destroy(single_to);
     wfpsf_ipc_kernel_destroy(kernel);
 }
 
@@ -293,21 +322,21 @@ static void test_twice(void) {
     wfpsf_options *force = with(WFPSF_OPTION_FORCE);
     wfpsf_ipc_kernel *kernel = paper_kernel(0.02, 0.002, 0), *correction = NULL;
     CHECK_OK(wfpsf_ipc_kernel_create_correction(kernel, &correction));
-    CHECK_OK(wfpsf_ipc_apply(kernel, image[0], WFPSF_EDGE_ZERO, NULL, image[1]));
+    CHECK_OK(wfpsf_ipc_apply(kernel, image[0], WFPSF_EDGE_ZERO, NULL, image[1], NULL));
     CHECK_FAILS(WFPSF_ERROR_ALREADY_APPLIED, "interpixel capacitance",
-                wfpsf_ipc_apply(kernel, image[1], WFPSF_EDGE_ZERO, NULL, image[2]));
+                wfpsf_ipc_apply(kernel, image[1], WFPSF_EDGE_ZERO, NULL, image[2], NULL));
     CHECK(all_are(data[2], 25, 7));
     check_record(image[2], 1, 0, 0);
-    CHECK_OK(wfpsf_ipc_apply(kernel, image[1], WFPSF_EDGE_ZERO, force, image[2]));
+    CHECK_OK(wfpsf_ipc_apply(kernel, image[1], WFPSF_EDGE_ZERO, force, image[2], NULL));
     check_record(image[2], 1, 0, WFPSF_EFFECT_IPC);
-    CHECK_OK(wfpsf_ipc_apply(correction, image[1], WFPSF_EDGE_ZERO, NULL, image[3]));
+    CHECK_OK(wfpsf_ipc_apply(correction, image[1], WFPSF_EDGE_ZERO, NULL, image[3], NULL));
     check_record(image[3], 1, 0, WFPSF_EFFECT_IPC | WFPSF_EFFECT_IPC_CORRECTION);
     CHECK_NEAR(data[3][12], 7, 1e-14);
     fill(data[2], 25, 7);
     CHECK_FAILS(WFPSF_ERROR_ALREADY_APPLIED, "correction",
-                wfpsf_ipc_apply(correction, image[3], WFPSF_EDGE_ZERO, NULL, image[2]));
+                wfpsf_ipc_apply(correction, image[3], WFPSF_EDGE_ZERO, NULL, image[2], NULL));
     CHECK_FAILS(WFPSF_ERROR_ALREADY_APPLIED, "interpixel capacitance",
-                wfpsf_ipc_apply(kernel, image[3], WFPSF_EDGE_ZERO, NULL, image[2]));
+                wfpsf_ipc_apply(kernel, image[3], WFPSF_EDGE_ZERO, NULL, image[2], NULL));
     CHECK(all_are(data[2], 25, 7));
     for (int i = 0; i < 4; ++i)
         wfpsf_image_destroy(image[i]);
@@ -325,29 +354,32 @@ static void test_apply_refuses(void) {
                 *floats = wrap_float(single, 7, 5), *shifted = wrap(in + 7, 7, 4),
                 *upper = wrap(in, 7, 4);
 
-    CHECK_FAILS(WFPSF_ERROR_ARGUMENT, "edge = 6", wfpsf_ipc_apply(kernel, from, 6, NULL, to));
-    CHECK_FAILS(WFPSF_ERROR_ARGUMENT, "edge = -1", wfpsf_ipc_apply(kernel, from, -1, NULL, to));
+    CHECK_FAILS(WFPSF_ERROR_ARGUMENT, "edge = 6", wfpsf_ipc_apply(kernel, from, 6, NULL, to, NULL));
+    CHECK_FAILS(WFPSF_ERROR_ARGUMENT, "edge = -1",
+                wfpsf_ipc_apply(kernel, from, -1, NULL, to, NULL));
     CHECK_FAILS(WFPSF_ERROR_SIZE, "8 x 5",
-                wfpsf_ipc_apply(kernel, from, WFPSF_EDGE_ZERO, NULL, larger));
+                wfpsf_ipc_apply(kernel, from, WFPSF_EDGE_ZERO, NULL, larger, NULL));
     CHECK_FAILS(WFPSF_ERROR_SIZE, "3 x 3",
-                wfpsf_ipc_apply(kernel, from, WFPSF_EDGE_VALID, NULL, to));
+                wfpsf_ipc_apply(kernel, from, WFPSF_EDGE_VALID, NULL, to, NULL));
     CHECK_FAILS(WFPSF_ERROR_TYPE, "out",
-                wfpsf_ipc_apply(kernel, from, WFPSF_EDGE_ZERO, NULL, floats));
+                wfpsf_ipc_apply(kernel, from, WFPSF_EDGE_ZERO, NULL, floats, NULL));
     CHECK_FAILS(WFPSF_ERROR_TYPE, "out",
-                wfpsf_ipc_apply(kernel, floats, WFPSF_EDGE_ZERO, NULL, to));
+                wfpsf_ipc_apply(kernel, floats, WFPSF_EDGE_ZERO, NULL, to, NULL));
     CHECK_FAILS(WFPSF_ERROR_OVERLAP, "out",
-                wfpsf_ipc_apply(kernel, upper, WFPSF_EDGE_ZERO, NULL, shifted));
-    CHECK_FAILS(WFPSF_ERROR_NULL, "kernel", wfpsf_ipc_apply(NULL, from, WFPSF_EDGE_ZERO, NULL, to));
-    CHECK_FAILS(WFPSF_ERROR_NULL, "in", wfpsf_ipc_apply(kernel, NULL, WFPSF_EDGE_ZERO, NULL, to));
+                wfpsf_ipc_apply(kernel, upper, WFPSF_EDGE_ZERO, NULL, shifted, NULL));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "kernel",
+                wfpsf_ipc_apply(NULL, from, WFPSF_EDGE_ZERO, NULL, to, NULL));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "in",
+                wfpsf_ipc_apply(kernel, NULL, WFPSF_EDGE_ZERO, NULL, to, NULL));
     CHECK_FAILS(WFPSF_ERROR_NULL, "out",
-                wfpsf_ipc_apply(kernel, from, WFPSF_EDGE_ZERO, NULL, NULL));
+                wfpsf_ipc_apply(kernel, from, WFPSF_EDGE_ZERO, NULL, NULL, NULL));
     CHECK(all_are(out, 63, 7) && all_are(in, 35, 0));
     check_record(to, 1, 0, 0);
 
     /* an empty image stays empty */
     wfpsf_image *none = wrap(NULL, 0, 0), *nothing = wrap(NULL, 0, 0);
     for (int edge = WFPSF_EDGE_ZERO; edge <= WFPSF_EDGE_VALID; ++edge)
-        CHECK_OK(wfpsf_ipc_apply(kernel, none, edge, NULL, nothing));
+        CHECK_OK(wfpsf_ipc_apply(kernel, none, edge, NULL, nothing, NULL));
 
     wfpsf_image *const all[] = {from, to, larger, floats, shifted, upper, none, nothing};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i)
@@ -361,7 +393,7 @@ static void test_nan(void) {
     in[12] = NAN;
     wfpsf_ipc_kernel *kernel = paper_kernel(0.02, 0.002, 0);
     wfpsf_image *from = wrap(in, 5, 5), *to = wrap(out, 5, 5);
-    CHECK_OK(wfpsf_ipc_apply(kernel, from, WFPSF_EDGE_ZERO, NULL, to));
+    CHECK_OK(wfpsf_ipc_apply(kernel, from, WFPSF_EDGE_ZERO, NULL, to, NULL));
     for (int y = 0; y < 5; ++y)
         for (int x = 0; x < 5; ++x)
             CHECK((isnan(out[y * 5 + x]) != 0) == (abs(x - 2) <= 1 && abs(y - 2) <= 1));
@@ -448,7 +480,7 @@ static void test_correct(void) {
     wfpsf_image *from = wrap(charge, 11, 9), *to = wrap(seen, 11, 9), *back = wrap(found, 11, 9);
     for (int edge = WFPSF_EDGE_ZERO; edge <= WFPSF_EDGE_WRAP; ++edge) {
         CHECK_OK(wfpsf_image_set_record(to, 1, 0, 0));
-        CHECK_OK(wfpsf_ipc_apply(kernel, from, edge, NULL, to));
+        CHECK_OK(wfpsf_ipc_apply(kernel, from, edge, NULL, to, NULL));
         CHECK_OK(wfpsf_ipc_correct(kernel, to, edge, NULL, back, &residual, &noise, &passes,
                                    &not_finite));
         for (int i = 0; i < 99; ++i)
@@ -511,6 +543,7 @@ int main(void) {
     test_convolution(1, 6, 2);
     test_convolution(6, 1, 1);
     test_float();
+    test_not_finite();
     test_twice();
     test_apply_refuses();
     test_nan();

@@ -23,7 +23,7 @@ static void work(int star, struct star *result) {
     wfpsf_image *blurred = wrap_strided(result->blurred, side, side, 1, side, 4);
     wfpsf_moments *moments = NULL;
     CHECK_OK(wfpsf_psf_draw(psf, x, y, 1000, NULL, drawn));
-    CHECK_OK(wfpsf_ipc_apply(kernel, drawn, WFPSF_EDGE_ZERO, NULL, blurred));
+    CHECK_OK(wfpsf_ipc_apply(kernel, drawn, WFPSF_EDGE_ZERO, NULL, blurred, NULL));
     CHECK(wfpsf_moments_measure(blurred, NULL, &moments) >= 0);
     CHECK_OK(wfpsf_moments_get(moments, WFPSF_MOMENTS_SIGMA, &result->sigma));
     CHECK_OK(wfpsf_moments_get(moments, WFPSF_MOMENTS_E1, &result->e1));

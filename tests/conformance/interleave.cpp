@@ -96,12 +96,13 @@ TEST(Interleave, IpcOnceOrInEveryDither) {
                 pixel = value(random);
             blurred.emplace_back(nx, ny);
             require(wfpsf_ipc_apply(kernel.get(), native.images.back().image.get(), edge, nullptr,
-                                    blurred.back().image.get()));
+                                    blurred.back().image.get(), NULL));
         }
         Pixels fine(n * nx, n * ny), once(n * nx, n * ny), each(n * nx, n * ny);
         require(wfpsf_image_interleave(n, n, native.handles().data(), native.dx.data(),
                                        native.dy.data(), WFPSF_DITHER_DETECTOR, fine.image.get()));
-        require(wfpsf_ipc_apply(kernel.get(), fine.image.get(), edge, nullptr, once.image.get()));
+        require(
+            wfpsf_ipc_apply(kernel.get(), fine.image.get(), edge, nullptr, once.image.get(), NULL));
         native.images = std::move(blurred);
         require(wfpsf_image_interleave(n, n, native.handles().data(), native.dx.data(),
                                        native.dy.data(), WFPSF_DITHER_DETECTOR, each.image.get()));

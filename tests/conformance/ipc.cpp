@@ -76,7 +76,7 @@ TEST(Ipc, Cases) {
             require(
                 wfpsf_options_set_real(options.get(), WFPSF_OPTION_IPC_FILL, std::stod(c.fill)));
         require(wfpsf_ipc_apply(kernels.at(c.kernel).get(), in.image.get(), edge_of(c),
-                                options.get(), out.image.get()));
+                                options.get(), out.image.get(), NULL));
         for (const Row &row : c.rows)
             EXPECT_NEAR(out(row.integer("ix"), row.integer("iy")), row.number("out"),
                         tolerance * largest(in.data))
@@ -127,9 +127,9 @@ TEST(Ipc, Correction) {
         require(wfpsf_ipc_kernel_create_correction(kernel.get(), &correction));
         const Kernel owner(correction);
         require(wfpsf_ipc_apply(kernel.get(), in.image.get(), WFPSF_EDGE_ZERO, nullptr,
-                                blurred.image.get()));
+                                blurred.image.get(), NULL));
         require(wfpsf_ipc_apply(correction, blurred.image.get(), WFPSF_EDGE_ZERO, nullptr,
-                                corrected.image.get()));
+                                corrected.image.get(), NULL));
         int compared = 0;
         for (const Row &row : table) {
             if (row.number("alpha") != p[0] || row.number("alpha_plus") != p[1] ||

@@ -33,7 +33,7 @@ Ellipse measure_with(const Pixels &field, const Ipc &ipc) {
     const Kernel kernel = make_kernel(ipc.alpha, ipc.alpha_prime, ipc.alpha_plus);
     Pixels blurred(field.nx, field.ny, oversampling);
     require(wfpsf_ipc_apply(kernel.get(), field.image.get(), WFPSF_EDGE_ZERO, nullptr,
-                            blurred.image.get()));
+                            blurred.image.get(), NULL));
     const Options options = make_options();
     require(wfpsf_options_set_real(options.get(), WFPSF_OPTION_MOMENTS_TOLERANCE, 1e-11));
     return measure(blurred, options.get());

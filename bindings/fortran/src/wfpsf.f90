@@ -176,6 +176,20 @@ module wfpsf
         final :: kernel_finalize
     end type wfpsf_ipc_kernel
 
+    ! IPC whose kernel varies from pixel to pixel.
+    type, extends(handle) :: wfpsf_varying_ipc
+    contains
+        procedure :: create_maps => varying_ipc_create_maps
+        procedure :: create_polynomials => varying_ipc_create_polynomials
+        procedure :: create_regions => varying_ipc_create_regions
+        procedure :: destroy => varying_ipc_destroy
+        procedure :: get_kernel => varying_ipc_get_kernel
+        procedure :: get_margin => varying_ipc_get_margin
+        procedure :: apply => varying_ipc_apply
+        procedure :: correct => varying_ipc_correct
+        final :: varying_ipc_finalize
+    end type wfpsf_varying_ipc
+
     ! A detector's effects in a stated order.
     type, extends(handle) :: wfpsf_chain
     contains
@@ -183,7 +197,8 @@ module wfpsf
         procedure :: create_default => chain_create_default
         procedure :: destroy => chain_destroy
         procedure :: add => chain_add
-        procedure :: add_ipc => chain_add_ipc
+        procedure, private :: chain_add_ipc, chain_add_varying_ipc
+        generic :: add_ipc => chain_add_ipc, chain_add_varying_ipc
         procedure :: add_map => chain_add_map
         procedure :: get_step => chain_get_step
         procedure :: apply => chain_apply
@@ -1135,12 +1150,13 @@ module wfpsf
 
         ! Applies the kernel; edge: wfpsf_edge_*. `to` may be `from`. Options: ipc_form, ipc_fill,
         ! force, threads.
-        module subroutine kernel_apply(self, from, edge, to, options, stat, errmsg)
+        module subroutine kernel_apply(self, from, edge, to, options, not_finite, stat, errmsg)
             class(wfpsf_ipc_kernel), intent(in) :: self
             type(wfpsf_image), intent(in) :: from
             integer, intent(in) :: edge
             type(wfpsf_image), intent(inout) :: to
             type(wfpsf_options), intent(in), optional :: options
+            integer(int64), intent(inout), optional :: not_finite
             integer, intent(out), optional :: stat
             character(len=*), intent(inout), optional :: errmsg
         end subroutine kernel_apply
@@ -1177,8 +1193,100 @@ module wfpsf
         end subroutine kernel_finalize
     end interface
 
+    ! IPC that varies over a detector.
+    private :: varying_ipc_create_maps, varying_ipc_create_polynomials, varying_ipc_create_regions
+    private :: varying_ipc_destroy, varying_ipc_get_kernel, varying_ipc_get_margin
+    private :: varying_ipc_apply, varying_ipc_correct, varying_ipc_finalize
+    interface
+        ! Maps of the parameters of kernels; absent: 0. Option: kernel_negative.
+        module subroutine varying_ipc_create_maps(self, alpha, alpha_prime, alpha_plus, options, stat, errmsg)
+            class(wfpsf_varying_ipc), intent(inout) :: self
+            type(wfpsf_image), intent(in) :: alpha
+            type(wfpsf_image), intent(in), optional :: alpha_prime, alpha_plus
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine varying_ipc_create_maps
+
+        ! Polynomials over nx x ny pixels: coefficients of 1, X, Y, X^2, XY, Y^2, ..., X and Y from -1
+        ! to 1 between the borders. Option: kernel_negative.
+        module subroutine varying_ipc_create_polynomials(self, nx, ny, degree, alpha, alpha_prime, &
+                alpha_plus, options, stat, errmsg)
+            class(wfpsf_varying_ipc), intent(inout) :: self
+            integer, intent(in) :: nx, ny, degree
+            real(real64), intent(in), contiguous :: alpha(:)
+            real(real64), intent(in), contiguous, optional :: alpha_prime(:), alpha_plus(:)
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine varying_ipc_create_polynomials
+
+        ! One kernel per region: regions holds the number of each pixel's, from 1.
+        module subroutine varying_ipc_create_regions(self, regions, kernels, stat, errmsg)
+            class(wfpsf_varying_ipc), intent(inout) :: self
+            type(wfpsf_image), intent(in) :: regions
+            type(wfpsf_ipc_kernel), intent(in) :: kernels(:)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine varying_ipc_create_regions
+
+        module subroutine varying_ipc_destroy(self)
+            class(wfpsf_varying_ipc), intent(inout) :: self
+        end subroutine varying_ipc_destroy
+
+        ! The kernel of pixel (x, y), from 1.
+        module subroutine varying_ipc_get_kernel(self, x, y, kernel, stat, errmsg)
+            class(wfpsf_varying_ipc), intent(in) :: self
+            integer, intent(in) :: x, y
+            type(wfpsf_ipc_kernel), intent(inout) :: kernel
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine varying_ipc_get_kernel
+
+        ! The least min |K^| of any pixel, and the pixel.
+        module subroutine varying_ipc_get_margin(self, margin, x, y, stat, errmsg)
+            class(wfpsf_varying_ipc), intent(in) :: self
+            real(real64), intent(inout) :: margin
+            integer, intent(out), optional :: x, y
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine varying_ipc_get_margin
+
+        ! Applies it; edge: wfpsf_edge_*. `to` may be `from`. Options: ipc_form, ipc_fill, force,
+        ! threads.
+        module subroutine varying_ipc_apply(self, from, edge, to, options, not_finite, stat, errmsg)
+            class(wfpsf_varying_ipc), intent(in) :: self
+            type(wfpsf_image), intent(in) :: from
+            integer, intent(in) :: edge
+            type(wfpsf_image), intent(inout) :: to
+            type(wfpsf_options), intent(in), optional :: options
+            integer(int64), intent(inout), optional :: not_finite
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine varying_ipc_apply
+
+        ! Undoes it, as a kernel's correct does; noise_amplification is measured if it is asked for.
+        module subroutine varying_ipc_correct(self, from, edge, to, options, residual, noise_amplification, &
+                passes, not_finite, stat, errmsg)
+            class(wfpsf_varying_ipc), intent(in) :: self
+            type(wfpsf_image), intent(in) :: from
+            integer, intent(in) :: edge
+            type(wfpsf_image), intent(inout) :: to
+            type(wfpsf_options), intent(in), optional :: options
+            real(real64), intent(inout), optional :: residual, noise_amplification
+            integer(int64), intent(inout), optional :: passes, not_finite
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine varying_ipc_correct
+
+        impure elemental module subroutine varying_ipc_finalize(self)
+            type(wfpsf_varying_ipc), intent(inout) :: self
+        end subroutine varying_ipc_finalize
+    end interface
+
     ! Detector chains, noise, the sky.
     private :: chain_create, chain_create_default, chain_destroy, chain_add, chain_add_ipc
+    private :: chain_add_varying_ipc
     private :: chain_add_map, chain_get_step, chain_apply, chain_finalize
     private :: instrument_get_sky_level, instrument_get_sky_background
     interface
@@ -1219,6 +1327,15 @@ module wfpsf
             integer, intent(out), optional :: stat
             character(len=*), intent(inout), optional :: errmsg
         end subroutine chain_add_ipc
+
+        ! The same with kernels that vary; form: wfpsf_ipc_scatter or _gather.
+        module subroutine chain_add_varying_ipc(self, varying, form, edge, stat, errmsg)
+            class(wfpsf_chain), intent(inout) :: self
+            type(wfpsf_varying_ipc), intent(in) :: varying
+            integer, intent(in) :: form, edge
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine chain_add_varying_ipc
 
         ! Adds a step with a map, which is copied.
         module subroutine chain_add_map(self, step, parameters, map, stat, errmsg)

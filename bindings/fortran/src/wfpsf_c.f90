@@ -1150,15 +1150,16 @@ module wfpsf_c
             integer(c_int32_t) :: outcome
         end function wfpsf_ipc_kernel_transform
 
-        function wfpsf_ipc_apply(kernel, in, edge, options, out) &
+        function wfpsf_ipc_apply(kernel, in, edge, options, out, not_finite) &
             bind(c, name="wfpsf_ipc_apply") result(outcome)
-            import :: c_int32_t, c_ptr
+            import :: c_int32_t, c_int64_t, c_ptr
             implicit none
             type(c_ptr), value :: kernel
             type(c_ptr), value :: in
             integer(c_int32_t), value :: edge
             type(c_ptr), value :: options
             type(c_ptr), value :: out
+            integer(c_int64_t), intent(inout), optional :: not_finite
             integer(c_int32_t) :: outcome
         end function wfpsf_ipc_apply
 
@@ -1202,6 +1203,104 @@ module wfpsf_c
             type(c_ptr), value :: out
             integer(c_int32_t) :: outcome
         end function wfpsf_ipc_covariance
+
+        ! varying_ipc.h
+        function wfpsf_varying_ipc_create_maps(alpha, alpha_prime, alpha_plus, options, out) &
+            bind(c, name="wfpsf_varying_ipc_create_maps") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: alpha
+            type(c_ptr), value :: alpha_prime
+            type(c_ptr), value :: alpha_plus
+            type(c_ptr), value :: options
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_varying_ipc_create_maps
+
+        function wfpsf_varying_ipc_create_polynomials(nx, ny, degree, alpha, alpha_prime, &
+            alpha_plus, options, out) &
+            bind(c, name="wfpsf_varying_ipc_create_polynomials") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            integer(c_int64_t), value :: nx
+            integer(c_int64_t), value :: ny
+            integer(c_int64_t), value :: degree
+            real(c_double), intent(in), optional :: alpha(*)
+            real(c_double), intent(in), optional :: alpha_prime(*)
+            real(c_double), intent(in), optional :: alpha_plus(*)
+            type(c_ptr), value :: options
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_varying_ipc_create_polynomials
+
+        function wfpsf_varying_ipc_create_regions(regions, count, kernels, out) &
+            bind(c, name="wfpsf_varying_ipc_create_regions") result(outcome)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: regions
+            integer(c_int64_t), value :: count
+            type(c_ptr), intent(in), optional :: kernels(*)
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_varying_ipc_create_regions
+
+        subroutine wfpsf_varying_ipc_destroy(varying) bind(c, name="wfpsf_varying_ipc_destroy")
+            import :: c_ptr
+            implicit none
+            type(c_ptr), value :: varying
+        end subroutine wfpsf_varying_ipc_destroy
+
+        function wfpsf_varying_ipc_kernel(varying, x, y, out) &
+            bind(c, name="wfpsf_varying_ipc_kernel") result(outcome)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: varying
+            integer(c_int64_t), value :: x
+            integer(c_int64_t), value :: y
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_varying_ipc_kernel
+
+        function wfpsf_varying_ipc_margin(varying, margin, x, y) &
+            bind(c, name="wfpsf_varying_ipc_margin") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: varying
+            real(c_double), intent(inout), optional :: margin
+            integer(c_int64_t), intent(inout), optional :: x
+            integer(c_int64_t), intent(inout), optional :: y
+            integer(c_int32_t) :: outcome
+        end function wfpsf_varying_ipc_margin
+
+        function wfpsf_varying_ipc_apply(varying, in, edge, options, out, not_finite) &
+            bind(c, name="wfpsf_varying_ipc_apply") result(outcome)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: varying
+            type(c_ptr), value :: in
+            integer(c_int32_t), value :: edge
+            type(c_ptr), value :: options
+            type(c_ptr), value :: out
+            integer(c_int64_t), intent(inout), optional :: not_finite
+            integer(c_int32_t) :: outcome
+        end function wfpsf_varying_ipc_apply
+
+        function wfpsf_varying_ipc_correct(varying, in, edge, options, out, residual, &
+            noise_amplification, passes, not_finite) &
+            bind(c, name="wfpsf_varying_ipc_correct") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: varying
+            type(c_ptr), value :: in
+            integer(c_int32_t), value :: edge
+            type(c_ptr), value :: options
+            type(c_ptr), value :: out
+            real(c_double), intent(inout), optional :: residual
+            real(c_double), intent(inout), optional :: noise_amplification
+            integer(c_int64_t), intent(inout), optional :: passes
+            integer(c_int64_t), intent(inout), optional :: not_finite
+            integer(c_int32_t) :: outcome
+        end function wfpsf_varying_ipc_correct
 
         ! chain.h
         function wfpsf_chain_create(out) bind(c, name="wfpsf_chain_create") result(outcome)
@@ -1247,6 +1346,17 @@ module wfpsf_c
             integer(c_int32_t), value :: edge
             integer(c_int32_t) :: outcome
         end function wfpsf_chain_add_ipc
+
+        function wfpsf_chain_add_varying_ipc(chain, varying, form, edge) &
+            bind(c, name="wfpsf_chain_add_varying_ipc") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: chain
+            type(c_ptr), value :: varying
+            integer(c_int32_t), value :: form
+            integer(c_int32_t), value :: edge
+            integer(c_int32_t) :: outcome
+        end function wfpsf_chain_add_varying_ipc
 
         function wfpsf_chain_add_map(chain, step, count, parameters, map) &
             bind(c, name="wfpsf_chain_add_map") result(outcome)

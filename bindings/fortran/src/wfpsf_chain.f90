@@ -45,6 +45,11 @@ contains
         call report(wfpsf_chain_add_ipc(self%pointer, kernel%pointer, edge), stat, errmsg)
     end procedure chain_add_ipc
 
+    module procedure chain_add_varying_ipc
+        call report(wfpsf_chain_add_varying_ipc(self%pointer, varying%pointer, form, edge), stat, &
+            errmsg)
+    end procedure chain_add_varying_ipc
+
     module procedure chain_add_map
         call report(wfpsf_chain_add_map(self%pointer, step, size(parameters, kind=c_int64_t), &
             parameters, map%pointer), stat, errmsg)

@@ -153,7 +153,7 @@ contains
 
     module procedure kernel_apply
         call report(wfpsf_ipc_apply(self%pointer, from%pointer, edge, pointer_of(options), &
-            to%pointer), stat, errmsg)
+            to%pointer, not_finite), stat, errmsg)
     end procedure kernel_apply
 
     module procedure kernel_correct

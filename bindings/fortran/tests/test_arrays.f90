@@ -23,6 +23,7 @@ program test_arrays
     call interleaves()
     call passes_taps()
     call corrects_ipc()
+    call varies_ipc()
     call runs_a_chain()
     call passes_instrument_arrays()
     call designs()
@@ -248,6 +249,57 @@ contains
         call kernel%covariance(map, 0, 0, wfpsf_edge_wrap, map)
         call expect(maxval(abs(variance - taps(3, 3))) < 1e-15_real64, "variance")
     end subroutine corrects_ipc
+
+    subroutine varies_ipc()
+        type(wfpsf_varying_ipc) :: maps, smooth, regions
+        type(wfpsf_ipc_kernel) :: kernels(2), kernel
+        type(wfpsf_chain) :: chain
+        type(wfpsf_image) :: image, alpha, index
+        real(real64), target :: a(9, 7), map(9, 7), label(9, 7)
+        real(real64), allocatable :: taps(:, :)
+        real(real64) :: margin, residual, noise
+        integer(int64) :: not_finite
+        integer :: x, y, stat
+
+        a = numbered(9, 7)
+        map = 0.01_real64
+        map(8, 3) = 0.05_real64
+        label = 1
+        label(:, 5:) = 2
+        call image%wrap(a, 1)
+        call alpha%wrap(map, 1)
+        call index%wrap(label, 1)
+        call maps%create_maps(alpha)
+        call maps%get_margin(margin, x, y)
+        call expect(abs(margin - 0.6_real64) < 1e-14_real64 .and. x == 8 .and. y == 3, "weakest")
+        call maps%get_kernel(8, 3, kernel)
+        call kernel%get_taps(taps)
+        call expect(taps(1, 2) == 0.05_real64, "kernel of a pixel")
+        call maps%apply(image, wfpsf_edge_zero, image, not_finite=not_finite)
+        call expect(not_finite == 0 .and. any(abs(a - numbered(9, 7)) > 1), "varying IPC")
+        call maps%correct(image, wfpsf_edge_zero, image, residual=residual, &
+            noise_amplification=noise)
+        call expect(maxval(abs(a - numbered(9, 7))) < 1e-11_real64, "undone")
+        call expect(residual < 1e-14_real64 .and. noise > 1, "its report")
+
+        call kernels(1)%create(0.01_real64, 0.0_real64, 0.0_real64)
+        call kernels(2)%create(0.02_real64, 0.0_real64, 0.0_real64)
+        call regions%create_regions(index, kernels)
+        call regions%get_kernel(1, 5, kernel)
+        call kernel%get_taps(taps)
+        call expect(taps(1, 2) == 0.02_real64, "region 2")
+        call smooth%create_polynomials(9, 7, 1, [0.02_real64, 0.009_real64, 0.0_real64])
+        call smooth%get_kernel(9, 4, kernel)
+        call kernel%get_taps(taps)
+        call expect(abs(taps(1, 2) - 0.028_real64) < 1e-16_real64, "polynomial")
+        call smooth%create_polynomials(9, 7, 2, [0.02_real64], stat=stat)
+        call expect(stat == wfpsf_error_range, "too few coefficients")
+        call chain%create()
+        call chain%add_ipc(regions, wfpsf_ipc_scatter, wfpsf_edge_wrap)
+        call image%set_record(1, 0.0_real64, 0)
+        call chain%apply(image)
+        call expect(abs(sum(a) - sum(numbered(9, 7))) < 1e-8_real64, "charge is conserved")
+    end subroutine varies_ipc
 
     subroutine runs_a_chain()
         type(wfpsf_instrument) :: roman

@@ -741,10 +741,10 @@ function wfpsf_ipc_kernel_transform(kernel, frequency_x, frequency_y, real_part,
 end
 
 const wfpsf_ipc_apply_pointer = Ref(C_NULL)
-function wfpsf_ipc_apply(kernel, input, edge, options, out)
+function wfpsf_ipc_apply(kernel, input, edge, options, out, not_finite)
     return ccall(wfpsf_ipc_apply_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int32, Ptr{Cvoid},
-        Ptr{Cvoid}),
-        kernel, input, edge, options, out)
+        Ptr{Cvoid}, Ptr{Int64}),
+        kernel, input, edge, options, out, not_finite)
 end
 
 const wfpsf_ipc_kernel_self_test_pointer = Ref(C_NULL)
@@ -767,6 +767,64 @@ function wfpsf_ipc_covariance(kernel, variance, lag_x, lag_y, edge, options, out
     return ccall(wfpsf_ipc_covariance_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int64, Int64,
         Int32, Ptr{Cvoid}, Ptr{Cvoid}),
         kernel, variance, lag_x, lag_y, edge, options, out)
+end
+
+# varying_ipc.h
+const wfpsf_varying_ipc_create_maps_pointer = Ref(C_NULL)
+function wfpsf_varying_ipc_create_maps(alpha, alpha_prime, alpha_plus, options, out)
+    return ccall(wfpsf_varying_ipc_create_maps_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid},
+        Ptr{Cvoid}, Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        alpha, alpha_prime, alpha_plus, options, out)
+end
+
+const wfpsf_varying_ipc_create_polynomials_pointer = Ref(C_NULL)
+function wfpsf_varying_ipc_create_polynomials(nx, ny, degree, alpha, alpha_prime, alpha_plus,
+    options, out)
+    return ccall(wfpsf_varying_ipc_create_polynomials_pointer[], Int32, (Int64, Int64, Int64,
+        Ptr{Float64}, Ptr{Float64}, Ptr{Float64}, Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        nx, ny, degree, alpha, alpha_prime, alpha_plus, options, out)
+end
+
+const wfpsf_varying_ipc_create_regions_pointer = Ref(C_NULL)
+function wfpsf_varying_ipc_create_regions(regions, count, kernels, out)
+    return ccall(wfpsf_varying_ipc_create_regions_pointer[], Int32, (Ptr{Cvoid}, Int64,
+        Ptr{Ptr{Cvoid}}, Ptr{Ptr{Cvoid}}),
+        regions, count, kernels, out)
+end
+
+const wfpsf_varying_ipc_destroy_pointer = Ref(C_NULL)
+function wfpsf_varying_ipc_destroy(varying)
+    return ccall(wfpsf_varying_ipc_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
+        varying)
+end
+
+const wfpsf_varying_ipc_kernel_pointer = Ref(C_NULL)
+function wfpsf_varying_ipc_kernel(varying, x, y, out)
+    return ccall(wfpsf_varying_ipc_kernel_pointer[], Int32, (Ptr{Cvoid}, Int64, Int64,
+        Ptr{Ptr{Cvoid}}),
+        varying, x, y, out)
+end
+
+const wfpsf_varying_ipc_margin_pointer = Ref(C_NULL)
+function wfpsf_varying_ipc_margin(varying, margin, x, y)
+    return ccall(wfpsf_varying_ipc_margin_pointer[], Int32, (Ptr{Cvoid}, Ptr{Float64}, Ptr{Int64},
+        Ptr{Int64}),
+        varying, margin, x, y)
+end
+
+const wfpsf_varying_ipc_apply_pointer = Ref(C_NULL)
+function wfpsf_varying_ipc_apply(varying, input, edge, options, out, not_finite)
+    return ccall(wfpsf_varying_ipc_apply_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int32,
+        Ptr{Cvoid}, Ptr{Cvoid}, Ptr{Int64}),
+        varying, input, edge, options, out, not_finite)
+end
+
+const wfpsf_varying_ipc_correct_pointer = Ref(C_NULL)
+function wfpsf_varying_ipc_correct(varying, input, edge, options, out, residual,
+    noise_amplification, passes, not_finite)
+    return ccall(wfpsf_varying_ipc_correct_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int32,
+        Ptr{Cvoid}, Ptr{Cvoid}, Ptr{Float64}, Ptr{Float64}, Ptr{Int64}, Ptr{Int64}),
+        varying, input, edge, options, out, residual, noise_amplification, passes, not_finite)
 end
 
 # chain.h
@@ -818,6 +876,13 @@ const wfpsf_chain_add_ipc_pointer = Ref(C_NULL)
 function wfpsf_chain_add_ipc(chain, kernel, edge)
     return ccall(wfpsf_chain_add_ipc_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int32),
         chain, kernel, edge)
+end
+
+const wfpsf_chain_add_varying_ipc_pointer = Ref(C_NULL)
+function wfpsf_chain_add_varying_ipc(chain, varying, form, edge)
+    return ccall(wfpsf_chain_add_varying_ipc_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int32,
+        Int32),
+        chain, varying, form, edge)
 end
 
 const wfpsf_chain_add_map_pointer = Ref(C_NULL)
@@ -1037,11 +1102,20 @@ const pointers = [
     :wfpsf_ipc_kernel_self_test => wfpsf_ipc_kernel_self_test_pointer,
     :wfpsf_ipc_correct => wfpsf_ipc_correct_pointer,
     :wfpsf_ipc_covariance => wfpsf_ipc_covariance_pointer,
+    :wfpsf_varying_ipc_create_maps => wfpsf_varying_ipc_create_maps_pointer,
+    :wfpsf_varying_ipc_create_polynomials => wfpsf_varying_ipc_create_polynomials_pointer,
+    :wfpsf_varying_ipc_create_regions => wfpsf_varying_ipc_create_regions_pointer,
+    :wfpsf_varying_ipc_destroy => wfpsf_varying_ipc_destroy_pointer,
+    :wfpsf_varying_ipc_kernel => wfpsf_varying_ipc_kernel_pointer,
+    :wfpsf_varying_ipc_margin => wfpsf_varying_ipc_margin_pointer,
+    :wfpsf_varying_ipc_apply => wfpsf_varying_ipc_apply_pointer,
+    :wfpsf_varying_ipc_correct => wfpsf_varying_ipc_correct_pointer,
     :wfpsf_chain_create => wfpsf_chain_create_pointer,
     :wfpsf_chain_create_default => wfpsf_chain_create_default_pointer,
     :wfpsf_chain_destroy => wfpsf_chain_destroy_pointer,
     :wfpsf_chain_add => wfpsf_chain_add_pointer,
     :wfpsf_chain_add_ipc => wfpsf_chain_add_ipc_pointer,
+    :wfpsf_chain_add_varying_ipc => wfpsf_chain_add_varying_ipc_pointer,
     :wfpsf_chain_add_map => wfpsf_chain_add_map_pointer,
     :wfpsf_chain_step => wfpsf_chain_step_pointer,
     :wfpsf_step_name => wfpsf_step_name_pointer,

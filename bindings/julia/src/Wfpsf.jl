@@ -37,6 +37,7 @@ export WfpsfError, options,
     IPCKernel, wfc3_kernel, wfc3_deviations, read_kernel, correction, flipped, compose,
     autocorrelation, taps, properties, transform, self_test, apply_ipc, apply_ipc!, correct_ipc!,
     covariance,
+    VaryingIPC, weakest,
     Chain, add!, steps, apply_chain!, add_noise!, sky_level, sky_background,
     Moments, adaptive_moments, unweighted_moments,
     encircled_energy, ee_radius, fwhm
@@ -58,6 +59,7 @@ include("psf.jl")
 include("varying_psf.jl")
 include("otf.jl")
 include("ipc.jl")
+include("varying_ipc.jl")
 include("chain.jl")
 include("moments.jl")
 include("size.jl")

@@ -27,6 +27,7 @@ destroy(::Chain, pointer) = LibWfpsf.wfpsf_chain_destroy(pointer)
 """
     add!(chain, step, parameters...)
     add!(chain, kernel; edge = :zero)
+    add!(chain, varying; edge = :zero, ipc_form = 0)
     add!(chain, step, map, parameters...)
 
 Adds a step at the end: one of numbers, IPC, or one with a map (an image, which is copied):
@@ -41,6 +42,12 @@ end
 
 function add!(chain::Chain, kernel::IPCKernel; edge::Symbol = :zero)
     check(LibWfpsf.wfpsf_chain_add_ipc(chain, kernel, choose(EDGES, :edge, edge)))
+    return chain
+end
+
+function add!(chain::Chain, varying::VaryingIPC; edge::Symbol = :zero, ipc_form::Integer = 0)
+    check(LibWfpsf.wfpsf_chain_add_varying_ipc(chain, varying, ipc_form,
+                                               choose(EDGES, :edge, edge)))
     return chain
 end
 

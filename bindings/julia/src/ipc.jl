@@ -188,7 +188,8 @@ correlation), `ipc_fill`, `force` (apply it again), `threads`.
 """
 function apply_ipc!(out::Image, kernel::IPCKernel, image::Image; edge::Symbol = :zero, keywords...)
     with_options((:ipc_form, :ipc_fill, :force, :threads), keywords) do options
-        check(LibWfpsf.wfpsf_ipc_apply(kernel, image, choose(EDGES, :edge, edge), options, out))
+        check(LibWfpsf.wfpsf_ipc_apply(kernel, image, choose(EDGES, :edge, edge), options, out,
+                                       C_NULL))
     end
     return out
 end

@@ -17,7 +17,7 @@
 
 #include <wfpsf/image.h>
 #include <wfpsf/instrument.h>
-#include <wfpsf/ipc.h>
+#include <wfpsf/varying_ipc.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -101,6 +101,18 @@ WFPSF_EXPORT wfpsf_status wfpsf_chain_add(wfpsf_chain *chain, int32_t step, int6
  */
 WFPSF_EXPORT wfpsf_status wfpsf_chain_add_ipc(wfpsf_chain *chain, const wfpsf_ipc_kernel *kernel,
                                               int32_t edge);
+
+/**
+ * Adds WFPSF_STEP_IPC at the end, with kernels that vary over the detector.
+ *
+ * Given:    varying  may be freed afterwards; of the size of the images to come
+ *           form     WFPSF_IPC_SCATTER or _GATHER
+ *           edge     as for wfpsf_chain_add_ipc()
+ * Status:   as for wfpsf_chain_add_ipc()
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_chain_add_varying_ipc(wfpsf_chain *chain,
+                                                      const wfpsf_varying_ipc *varying,
+                                                      int32_t form, int32_t edge);
 
 /**
  * Adds a step with a map at the end: DARK_CURRENT_MAP, CAPACITANCE_MAP or PIXEL_MASK.

@@ -219,12 +219,13 @@ WFPSF_EXPORT wfpsf_status wfpsf_ipc_kernel_transform(const wfpsf_ipc_kernel *ker
  *                    kernel's reach, N times nx/2 and ny/2, on each side). It may be `in` itself,
  *                    else it shares no memory with it; its record becomes the input's with IPC (or
  *                    its correction) added
+ *           not_finite  count of pixels of out that are NaN or infinite; may be NULL
  * Status:   ERROR_NULL, ERROR_ARGUMENT, ERROR_SIZE, ERROR_TYPE, ERROR_OVERLAP,
  *           ERROR_ALREADY_APPLIED
  */
 WFPSF_EXPORT wfpsf_status wfpsf_ipc_apply(const wfpsf_ipc_kernel *kernel, const wfpsf_image *in,
                                           int32_t edge, const wfpsf_options *options,
-                                          wfpsf_image *out);
+                                          wfpsf_image *out, int64_t *not_finite);
 
 /**
  * What wfpsf_ipc_apply() makes of one unit of charge: to be looked at before a kernel is believed.
