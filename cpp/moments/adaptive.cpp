@@ -127,6 +127,7 @@ template <class T> class Iteration {
         while (result_.status == WFPSF_OK && !done_)
             pass();
         set_ellipticity();
+        result_.missing_fraction = target_.missing_fraction(result_.weight, longest_reach2);
         result_.edge_fraction = edge_fraction(result_.weight, image_.nx, image_.ny);
         if (done_ && result_.edge_fraction > 0.5)
             report(result_, WFPSF_ERROR_MOMENTS_FILLS_IMAGE,
@@ -202,7 +203,6 @@ template <class T> class Iteration {
         if (target_.method != MomentsMethod::least_squares && !target_.count.empty()) {
             const WeightedSums missing =
                 squared_weight_sums(target_.count, here_, plan_.reach2, plan_.stride);
-            result_.missing_fraction = missing.sum[0][0] / plane;
             for (int j = 0; j <= 4; ++j)
                 for (int k = 0; j + k <= 4; ++k)
                     filled.sum[j][k] += amplitude * missing.sum[j][k];

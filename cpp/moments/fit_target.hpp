@@ -21,6 +21,8 @@ enum class MomentsMethod {
     round
 };
 
+inline constexpr float one_pixel = 1; // seen everywhere with strides of zero
+
 template <class T> struct FitTarget {
     View<const T> image;     // 0 where a pixel is missing
     View<const float> count; // of missing pixels; for least squares of those seen. May be empty
@@ -36,6 +38,19 @@ template <class T> struct FitTarget {
                    ? plane
                    : plane - power_sum(squared_weight_sums(count, weight, reach2, stride), 2);
     }
+
+    // The share of the integral of w^2 that lies on missing pixels.
+    double missing_fraction(const Gaussian &weight, double reach2) const {
+        const bool fit = method == MomentsMethod::least_squares;
+        if (count.empty() || (fit && count.stride_x == 0))
+            return 0;
+        const auto sum = [&](View<const float> counted) {
+            return squared_weight_sums(counted, weight, reach2, 1, 2).sum[0][0];
+        };
+        const double counted = sum(count);
+        const double lost = fit ? sum({&one_pixel, image.nx, image.ny, 0, 0}) - counted : counted;
+        return lost / plane_norm(weight).value;
+    }
 };
 
 // Calls body(FitTarget): on the pixels themselves if nothing is missing and nothing is to be taken
@@ -43,11 +58,10 @@ template <class T> struct FitTarget {
 template <class T, class Body>
 auto with_target(View<const T> image, View<const float> missing, double background,
                  MomentsMethod method, Body &&body) {
-    static constexpr float one = 1;
     const bool fit = method == MomentsMethod::least_squares;
     View<const float> count = missing;
     if (fit)
-        count = {&one, image.nx, image.ny, 0, 0};
+        count = {&one_pixel, image.nx, image.ny, 0, 0};
     if (missing.empty() && background == 0)
         return body(FitTarget<T>{image, count, method});
 

@@ -4,9 +4,10 @@
 #include "gaussian_image.hpp"
 #include "moments/sensitivity.hpp"
 
-#include <functional>
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <random>
+#include <vector>
 
 namespace wfpsf {
 namespace {
@@ -145,6 +146,79 @@ INSTANTIATE_TEST_SUITE_P(
                     Setting{"round", MomentsMethod::round, false},
                     Setting{"round_masked", MomentsMethod::round, true}),
     [](const auto &setting) { return std::string(setting.param.name); });
+
+// The predicted standard deviations against those of noisy measurements.
+TEST(Covariance, AgreesWithNoise) {
+    for (const double signal_to_noise : {200.0, 50.0, 10.0}) {
+        const Gaussian star = gaussian_of(16.3, 15.8, 2.4, 0.2, 0.1);
+        const double flux =
+            signal_to_noise * 2 * std::sqrt(std::numbers::pi * std::sqrt(star.det()));
+        const Plane<double> clean = gaussian_image(33, 33, star, flux);
+        Plane<double> variance(33, 33);
+        for (int64_t y = 0; y < 33; ++y)
+            for (int64_t x = 0; x < 33; ++x)
+                variance(x, y) = 0.6 + 0.025 * static_cast<double>(x);
+        const AdaptiveMoments m = adaptive_moments(view_of(clean), star);
+        ASSERT_EQ(m.status, WFPSF_OK);
+        const Sensitivity sensitivity(view_of(clean), m, {});
+        const auto noise = sensitivity.noise(view_of(variance));
+        std::array<std::array<double, 6>, 11> slopes{};
+        for (size_t k = 0; k < 6; ++k) {
+            const auto by = numbers(sensitivity.by_sum(static_cast<int>(k)));
+            for (size_t i = 0; i < slopes.size(); ++i)
+                slopes[i][k] = by[i].da;
+        }
+        std::mt19937 random(7);
+        std::normal_distribution<double> normal;
+        std::array<std::vector<double>, 11> values;
+        const int trials = 3000;
+        for (int trial = 0; trial < trials; ++trial) {
+            Plane<double> image(33, 33);
+            for (int64_t y = 0; y < 33; ++y)
+                for (int64_t x = 0; x < 33; ++x)
+                    image(x, y) = clean(x, y) + std::sqrt(variance(x, y)) * normal(random);
+            const AdaptiveMoments n = adaptive_moments(view_of(image), star, {.tolerance = 1e-6});
+            if (n.status != WFPSF_OK)
+                continue;
+            const auto found = numbers(n);
+            for (size_t i = 0; i < found.size(); ++i)
+                values[i].push_back(found[i]);
+        }
+        EXPECT_GE(values[0].size(), static_cast<size_t>(trials - 3));
+        for (size_t i = 0; i < slopes.size(); ++i) {
+            double predicted = 0;
+            for (size_t a = 0; a < 6; ++a)
+                for (size_t b = 0; b < 6; ++b)
+                    predicted += slopes[i][a] * noise[a][b] * slopes[i][b];
+            // Half the width of the middle 68.27%: at S/N 10 the tails of M are not normal.
+            std::sort(values[i].begin(), values[i].end());
+            const auto at = [&](double share) {
+                return values[i]
+                             [static_cast<size_t>(share * static_cast<double>(values[i].size()))];
+            };
+            const double ratio = (at(0.84134) - at(0.15866)) / 2 / std::sqrt(predicted);
+            EXPECT_NEAR(ratio, 1, signal_to_noise >= 50 ? 0.05 : 0.2)
+                << "S/N " << signal_to_noise << ", quantity " << i;
+        }
+    }
+}
+
+TEST(Covariance, RefusesImpossibleVariances) {
+    const Plane<double> image = star();
+    const AdaptiveMoments m = adaptive_moments(view_of(image));
+    const Sensitivity sensitivity(view_of(image), m, {});
+    const auto status = [&](double value) {
+        try {
+            sensitivity.noise(View<const double>{&value, nx, ny, 0, 0});
+        } catch (const Error &error) {
+            return error.status();
+        }
+        return static_cast<wfpsf_status>(WFPSF_OK);
+    };
+    EXPECT_EQ(status(1), WFPSF_OK);
+    EXPECT_EQ(status(-1), WFPSF_ERROR_RANGE);
+    EXPECT_EQ(status(std::nan("")), WFPSF_ERROR_NOT_FINITE);
+}
 
 } // namespace
 } // namespace wfpsf
