@@ -6,14 +6,18 @@
 #include "detector/ipc_kernel.hpp"
 #include "image/image.hpp"
 #include "instrument/instrument.hpp"
+#include "moments/adaptive.hpp"
+#include "moments/pixel_moments.hpp"
 #include "optics/otf.hpp"
 #include "optics/psf.hpp"
 #include "optics/varying_psf.hpp"
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <wfpsf/wfpsf.h>
@@ -57,6 +61,28 @@ struct wfpsf_chain {
 struct wfpsf_moments {
     wfpsf_status status;
     std::vector<std::pair<int32_t, double>> properties; // by key
+
+    // How it was measured, for its derivatives: as the solution of a fit, or from sums. None for a
+    // result that is a derivative.
+    struct Fit {
+        wfpsf::AdaptiveOptions options;
+        wfpsf::AdaptiveMoments solution;
+        std::shared_ptr<const wfpsf::Plane<float>> missing;
+    };
+    struct Sums {
+        double x, y;
+        std::optional<wfpsf::Gaussian> weight;
+        wfpsf::Centre centre;
+    };
+    std::variant<std::monostate, Fit, Sums> origin = {};
+    int64_t nx = 0, ny = 0;
+
+    // Of the six sums that a fit answers to, and the answers of CENTROID_X to FLUX, by key.
+    struct Covariance {
+        std::array<std::array<double, 6>, 6> sums;
+        std::vector<std::pair<int32_t, std::array<double, 6>>> slopes;
+    };
+    std::optional<Covariance> covariance = {};
 };
 
 namespace wfpsf {

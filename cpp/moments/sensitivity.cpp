@@ -138,7 +138,7 @@ struct Sensitivity::Solution {
         return step_of(inverse * third);
     }
 
-    Ellipse<HyperDual> ellipse(const Direction &y, const Direction &z) const {
+    MomentSet<HyperDual> ellipse(const Direction &y, const Direction &z) const {
         const WhitenedStep mixed = answer(y, z);
         const HyperDual t(0, y.step.t, z.step.t, mixed.t), v(0, y.step.v, z.step.v, mixed.v);
         const HyperDual htt(0, y.step.htt, z.step.htt, mixed.htt);
@@ -150,7 +150,7 @@ struct Sensitivity::Solution {
         const HyperDual Q(norm(), norm(y.step), norm(z.step),
                           second ? norm(y.step, z.step) + norm(mixed) : 0);
 
-        Ellipse<HyperDual> m;
+        MomentSet<HyperDual> m;
         m.x = weight.x + s * t + k * v;
         m.y = weight.y + l * v;
         // L exp(H) L^T, exp(H) to second order.
@@ -167,7 +167,7 @@ struct Sensitivity::Solution {
     }
 
     // Under a round weight e is that of the weighted moments, missing pixels filled by the fit.
-    void set_round(Ellipse<HyperDual> &m, const Direction &y, const Direction &z,
+    void set_round(MomentSet<HyperDual> &m, const Direction &y, const Direction &z,
                    const WhitenedStep &mixed, const HyperDual &amplitude) const {
         const auto moment = [&](int i) {
             const WhitenedStep &a = unit[static_cast<size_t>(i)];
@@ -197,6 +197,8 @@ Sensitivity::Sensitivity(View<const T> image, const AdaptiveMoments &solution,
       missing_(missing) {}
 
 Sensitivity::~Sensitivity() = default;
+Sensitivity::Sensitivity(Sensitivity &&) noexcept = default;
+Sensitivity &Sensitivity::operator=(Sensitivity &&) noexcept = default;
 
 template <class T> WeightedSums Sensitivity::sums_of(View<const T> change) const {
     return with_target(change, missing_, 0, MomentsMethod::adaptive, [&](const auto &target) {
@@ -205,13 +207,13 @@ template <class T> WeightedSums Sensitivity::sums_of(View<const T> change) const
     });
 }
 
-Ellipse<HyperDual> Sensitivity::along(const WeightedSums &a, const WeightedSums &b) const {
+MomentSet<HyperDual> Sensitivity::along(const WeightedSums &a, const WeightedSums &b) const {
     const WeightJet first(a, 1), second(b, 1);
     return solution_->ellipse({solution_->answer(first), first},
                               {solution_->answer(second), second});
 }
 
-Ellipse<HyperDual> Sensitivity::by_sum(int i) const {
+MomentSet<HyperDual> Sensitivity::by_sum(int i) const {
     WeightedSums sums;
     switch (i) {
     case 0:

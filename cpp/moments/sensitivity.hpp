@@ -4,7 +4,7 @@
 #pragma once
 
 #include "moments/adaptive.hpp"
-#include "moments/ellipse.hpp"
+#include "moments/moment_set.hpp"
 
 #include <array>
 #include <memory>
@@ -20,20 +20,20 @@ class Sensitivity {
                 const AdaptiveOptions &options, View<const float> missing = {},
                 bool second = false);
     ~Sensitivity();
-    Sensitivity(const Sensitivity &) = delete;
-    Sensitivity &operator=(const Sensitivity &) = delete;
+    Sensitivity(Sensitivity &&) noexcept;
+    Sensitivity &operator=(Sensitivity &&) noexcept;
 
     // The sums of a change of the image, which has its shape. Missing pixels count as zero.
     template <class T> WeightedSums sums_of(View<const T> change) const;
 
     // Every quantity with its derivatives as I + a A + b B departs from I: along A, along B, and
     // the mixed second one (0 unless second derivatives were asked for).
-    Ellipse<HyperDual> along(const WeightedSums &a, const WeightedSums &b) const;
+    MomentSet<HyperDual> along(const WeightedSums &a, const WeightedSums &b) const;
 
     // The influence function of a quantity q is dq/dI(x, y) = w (k0 + k1 t + k2 v + k3 t^2/2 +
     // k4 t v/sqrt(2) + k5 v^2/2) in whitened coordinates: this is q with its derivative k_i along
     // the sum of I w times the i-th of these six functions.
-    Ellipse<HyperDual> by_sum(int i) const;
+    MomentSet<HyperDual> by_sum(int i) const;
 
     // The covariance of the six sums, if pixels have independent noise of these variances;
     // `variance` may repeat one number, with strides of zero. Throws Error if one is negative or

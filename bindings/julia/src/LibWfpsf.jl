@@ -108,8 +108,13 @@ const WFPSF_OPTION_MOMENTS_MAX_PASSES = Int32(310)
 const WFPSF_OPTION_MOMENTS_GUESS_X = Int32(320)
 const WFPSF_OPTION_MOMENTS_GUESS_Y = Int32(330)
 const WFPSF_OPTION_MOMENTS_GUESS_SIGMA = Int32(340)
+const WFPSF_OPTION_MOMENTS_METHOD = Int32(350)
+const WFPSF_OPTION_MOMENTS_BACKGROUND = Int32(360)
+const WFPSF_OPTION_MOMENTS_VARIANCE = Int32(370)
+const WFPSF_OPTION_MOMENTS_RESTART = Int32(380)
 const WFPSF_OPTION_SIZE_TOTAL_FLUX = Int32(400)
 const WFPSF_OPTION_SIZE_BANDWIDTH = Int32(410)
+const WFPSF_OPTION_SIZE_EPS = Int32(420)
 const WFPSF_OPTION_FITS_OVERWRITE = Int32(500)
 const WFPSF_OPTION_THREADS = Int32(600)
 const WFPSF_OPTION_MEMORY_LIMIT = Int32(610)
@@ -888,11 +893,36 @@ const WFPSF_MOMENTS_ERROR_ESTIMATE = Int32(150)
 const WFPSF_MOMENTS_RESIDUAL = Int32(160)
 const WFPSF_MOMENTS_CURVATURE = Int32(170)
 const WFPSF_MOMENTS_EDGE_FRACTION = Int32(180)
+const WFPSF_MOMENTS_MISSING_FRACTION = Int32(190)
+const WFPSF_MOMENTS_AMPLITUDE = Int32(200)
+const WFPSF_MOMENTS_LAST_STEP = Int32(210)
+const WFPSF_MOMENTS_PIXELS = Int32(220)
 
 const wfpsf_moments_measure_pointer = Ref(C_NULL)
 function wfpsf_moments_measure(image, options, out)
     return ccall(wfpsf_moments_measure_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
         image, options, out)
+end
+
+const wfpsf_moments_measure_masked_pointer = Ref(C_NULL)
+function wfpsf_moments_measure_masked(image, missing, variance, options, out)
+    return ccall(wfpsf_moments_measure_masked_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Ptr{Cvoid},
+        Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        image, missing, variance, options, out)
+end
+
+const wfpsf_moments_measure_weighted_pointer = Ref(C_NULL)
+function wfpsf_moments_measure_weighted(image, x, y, Mxx, Mxy, Myy, out)
+    return ccall(wfpsf_moments_measure_weighted_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64,
+        Float64, Float64, Float64, Ptr{Ptr{Cvoid}}),
+        image, x, y, Mxx, Mxy, Myy, out)
+end
+
+const wfpsf_moments_sums_pointer = Ref(C_NULL)
+function wfpsf_moments_sums(image, x, y, weight, sums)
+    return ccall(wfpsf_moments_sums_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64, Ptr{Float64},
+        Ptr{Float64}),
+        image, x, y, weight, sums)
 end
 
 const wfpsf_moments_measure_unweighted_pointer = Ref(C_NULL)
@@ -918,6 +948,27 @@ const wfpsf_moments_get_pointer = Ref(C_NULL)
 function wfpsf_moments_get(moments, key, value)
     return ccall(wfpsf_moments_get_pointer[], Int32, (Ptr{Cvoid}, Int32, Ptr{Float64}),
         moments, key, value)
+end
+
+const wfpsf_moments_covariance_pointer = Ref(C_NULL)
+function wfpsf_moments_covariance(moments, key_a, key_b, value)
+    return ccall(wfpsf_moments_covariance_pointer[], Int32, (Ptr{Cvoid}, Int32, Int32,
+        Ptr{Float64}),
+        moments, key_a, key_b, value)
+end
+
+const wfpsf_moments_differentiate_pointer = Ref(C_NULL)
+function wfpsf_moments_differentiate(moments, image, change, second, out)
+    return ccall(wfpsf_moments_differentiate_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Ptr{Cvoid},
+        Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        moments, image, change, second, out)
+end
+
+const wfpsf_moments_influence_pointer = Ref(C_NULL)
+function wfpsf_moments_influence(moments, image, key, influence)
+    return ccall(wfpsf_moments_influence_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int32,
+        Ptr{Cvoid}),
+        moments, image, key, influence)
 end
 
 # size.h
@@ -1050,10 +1101,16 @@ const pointers = [
     :wfpsf_sky_level => wfpsf_sky_level_pointer,
     :wfpsf_sky_background => wfpsf_sky_background_pointer,
     :wfpsf_moments_measure => wfpsf_moments_measure_pointer,
+    :wfpsf_moments_measure_masked => wfpsf_moments_measure_masked_pointer,
+    :wfpsf_moments_measure_weighted => wfpsf_moments_measure_weighted_pointer,
+    :wfpsf_moments_sums => wfpsf_moments_sums_pointer,
     :wfpsf_moments_measure_unweighted => wfpsf_moments_measure_unweighted_pointer,
     :wfpsf_moments_destroy => wfpsf_moments_destroy_pointer,
     :wfpsf_moments_status => wfpsf_moments_status_pointer,
     :wfpsf_moments_get => wfpsf_moments_get_pointer,
+    :wfpsf_moments_covariance => wfpsf_moments_covariance_pointer,
+    :wfpsf_moments_differentiate => wfpsf_moments_differentiate_pointer,
+    :wfpsf_moments_influence => wfpsf_moments_influence_pointer,
     :wfpsf_size_encircled_energy => wfpsf_size_encircled_energy_pointer,
     :wfpsf_size_ee_radius => wfpsf_size_ee_radius_pointer,
     :wfpsf_size_fwhm => wfpsf_size_fwhm_pointer,

@@ -34,13 +34,13 @@ Plane<double> change(int kind) {
 
 std::array<double, 11> numbers(const AdaptiveMoments &m) {
     const Gaussian &w = m.weight;
-    Ellipse<double> p{w.x, w.y, w.Mxx, w.Mxy, w.Myy, m.flux};
+    MomentSet<double> p{w.x, w.y, w.Mxx, w.Mxy, w.Myy, m.flux};
     set_matrix(p, std::sqrt(w.det()), m.e1, m.e2);
     const Shape<double> s = shape_of(p);
     return {p.x, p.y, p.Mxx, p.Mxy, p.Myy, p.flux, s.sigma, s.sigma_trace, s.e1, s.e2, s.beta};
 }
 
-std::array<HyperDual, 11> numbers(const Ellipse<HyperDual> &p) {
+std::array<HyperDual, 11> numbers(const MomentSet<HyperDual> &p) {
     const Shape<HyperDual> s = shape_of(p);
     return {p.x, p.y, p.Mxx, p.Mxy, p.Myy, p.flux, s.sigma, s.sigma_trace, s.e1, s.e2, s.beta};
 }

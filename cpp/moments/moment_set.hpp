@@ -7,11 +7,11 @@
 
 namespace wfpsf {
 
-template <class N> struct Ellipse { N x{}, y{}, Mxx{}, Mxy{}, Myy{}, flux{}; };
+template <class N> struct MomentSet { N x{}, y{}, Mxx{}, Mxy{}, Myy{}, flux{}; };
 
 template <class N> struct Shape { N sigma, sigma_trace, e1, e2, e, beta; };
 
-template <class N> Shape<N> shape_of(const Ellipse<N> &m) {
+template <class N> Shape<N> shape_of(const MomentSet<N> &m) {
     using std::atan2;
     using std::sqrt;
     const N trace = m.Mxx + m.Myy;
@@ -25,7 +25,7 @@ template <class N> Shape<N> shape_of(const Ellipse<N> &m) {
 }
 
 // M of a given size det(M)^(1/2) and ellipticity.
-template <class N> void set_matrix(Ellipse<N> &m, const N &root_det, const N &e1, const N &e2) {
+template <class N> void set_matrix(MomentSet<N> &m, const N &root_det, const N &e1, const N &e2) {
     using std::sqrt;
     const N half_trace = root_det / sqrt(N(1) - e1 * e1 - e2 * e2);
     m.Mxx = half_trace * (N(1) + e1);
