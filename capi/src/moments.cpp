@@ -311,9 +311,13 @@ wfpsf_status wfpsf_moments_measure_weighted(const wfpsf_image *image, double x, 
 }
 
 wfpsf_status wfpsf_moments_sums(const wfpsf_image *image, double x, double y, const double *weight,
-                                double *sums) {
+                                int64_t count, double *sums) {
     return guarded([&] {
         require_pointer(image, "image");
+        if (count < 0 || count > 15)
+            fail(WFPSF_ERROR_RANGE, "count = %lld: must be 0..15", static_cast<long long>(count));
+        if (count == 0)
+            return;
         require_pointer(sums, "sums");
         require_finite(x, "x");
         require_finite(y, "y");
@@ -325,7 +329,7 @@ wfpsf_status wfpsf_moments_sums(const wfpsf_image *image, double x, double y, co
             if (!std::isfinite(value))
                 fail(WFPSF_ERROR_NOT_FINITE, "a sum = %g: every pixel that counts must be finite",
                      value);
-        std::copy(values.begin(), values.end(), sums);
+        std::copy_n(values.begin(), count, sums);
     });
 }
 

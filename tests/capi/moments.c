@@ -435,25 +435,29 @@ static void test_fixed_weight(void) {
     CHECK_NEAR(number(m, WFPSF_MOMENTS_FLUX), flux, 1e-6);
     wfpsf_moments_destroy(m);
     /* fourth moments of a normal distribution; (j, k) = (4,0), (3,1), (2,2) are sums 10 to 12 */
-    CHECK_OK(wfpsf_moments_sums(image, 20, 19, weight, sums));
+    CHECK_OK(wfpsf_moments_sums(image, 20, 19, weight, 15, sums));
     CHECK_NEAR(sums[0], flux, 1e-6);
     CHECK_NEAR(sums[6] / flux, 0, 1e-12);
     CHECK_NEAR(sums[10] / flux, 3 * 2 * 2, 1e-5);
     CHECK_NEAR(sums[11] / flux, 3 * 2 * 0.5, 1e-5);
     CHECK_NEAR(sums[12] / flux, 2 * 1.5 + 2 * 0.25, 1e-5);
-    CHECK_OK(wfpsf_moments_sums(image, 20, 19, NULL, sums));
+    CHECK_OK(wfpsf_moments_sums(image, 20, 19, NULL, 15, sums));
     CHECK_NEAR(sums[0], 2 * flux, 1e-6);
     CHECK_NEAR(sums[10] / sums[0], 3 * 4 * 4, 1e-5);
     CHECK_NEAR(sums[14] / sums[0], 3 * 3 * 3, 1e-5);
-    CHECK_OK(wfpsf_moments_sums(none, 20, 19, NULL, sums));
+    CHECK_OK(wfpsf_moments_sums(none, 20, 19, NULL, 15, sums));
     CHECK(sums[0] == 0);
 
     sums[0] = 7;
     weight[1] = 9;
-    CHECK_FAILS(WFPSF_ERROR_RANGE, "(4, 9, 3)", wfpsf_moments_sums(image, 20, 19, weight, sums));
-    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "x = nan", wfpsf_moments_sums(image, NAN, 19, NULL, sums));
-    CHECK_FAILS(WFPSF_ERROR_NULL, "image", wfpsf_moments_sums(NULL, 20, 19, NULL, sums));
-    CHECK_FAILS(WFPSF_ERROR_NULL, "sums", wfpsf_moments_sums(image, 20, 19, NULL, NULL));
+    CHECK_FAILS(WFPSF_ERROR_RANGE, "(4, 9, 3)",
+                wfpsf_moments_sums(image, 20, 19, weight, 15, sums));
+    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "x = nan",
+                wfpsf_moments_sums(image, NAN, 19, NULL, 15, sums));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "image", wfpsf_moments_sums(NULL, 20, 19, NULL, 15, sums));
+    CHECK_FAILS(WFPSF_ERROR_RANGE, "count = 16", wfpsf_moments_sums(image, 20, 19, NULL, 16, sums));
+    CHECK_OK(wfpsf_moments_sums(image, 20, 19, NULL, 0, NULL));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "sums", wfpsf_moments_sums(image, 20, 19, NULL, 15, NULL));
     m = STALE(wfpsf_moments);
     CHECK_FAILS(WFPSF_ERROR_MOMENTS_NO_PIXELS, "empty",
                 wfpsf_moments_measure_weighted(none, 20, 19, 4, 1, 3, &m));
@@ -470,7 +474,7 @@ static void test_fixed_weight(void) {
     CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "nan",
                 wfpsf_moments_measure_weighted(image, 20, 19, 4, 1, 3, &m));
     weight[1] = 1;
-    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "nan", wfpsf_moments_sums(image, 20, 19, weight, sums));
+    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "nan", wfpsf_moments_sums(image, 20, 19, weight, 15, sums));
     CHECK(sums[0] == 7);
     wfpsf_image_destroy(image);
     wfpsf_image_destroy(none);

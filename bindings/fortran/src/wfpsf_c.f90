@@ -1378,15 +1378,16 @@ module wfpsf_c
             integer(c_int32_t) :: outcome
         end function wfpsf_moments_measure_weighted
 
-        function wfpsf_moments_sums(image, x, y, weight, sums) &
+        function wfpsf_moments_sums(image, x, y, weight, count, sums) &
             bind(c, name="wfpsf_moments_sums") result(outcome)
-            import :: c_double, c_int32_t, c_ptr
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
             implicit none
             type(c_ptr), value :: image
             real(c_double), value :: x
             real(c_double), value :: y
             real(c_double), intent(in), optional :: weight(*)
-            real(c_double), intent(inout), optional :: sums
+            integer(c_int64_t), value :: count
+            real(c_double), intent(inout), optional :: sums(*)
             integer(c_int32_t) :: outcome
         end function wfpsf_moments_sums
 
@@ -1497,6 +1498,46 @@ module wfpsf_c
             real(c_double), intent(inout), optional :: fwhm
             integer(c_int32_t) :: outcome
         end function wfpsf_size_fwhm
+
+        function wfpsf_size_ee_radius_derivative(image, change, x, y, fraction, options, &
+            derivative) bind(c, name="wfpsf_size_ee_radius_derivative") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: image
+            type(c_ptr), value :: change
+            real(c_double), value :: x
+            real(c_double), value :: y
+            real(c_double), value :: fraction
+            type(c_ptr), value :: options
+            real(c_double), intent(inout), optional :: derivative
+            integer(c_int32_t) :: outcome
+        end function wfpsf_size_ee_radius_derivative
+
+        function wfpsf_size_profile(image, x, y, count, radii, options, profile) &
+            bind(c, name="wfpsf_size_profile") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: image
+            real(c_double), value :: x
+            real(c_double), value :: y
+            integer(c_int64_t), value :: count
+            real(c_double), intent(in), optional :: radii(*)
+            type(c_ptr), value :: options
+            real(c_double), intent(inout), optional :: profile(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_size_profile
+
+        function wfpsf_size_profile_fwhm(image, x, y, options, fwhm) &
+            bind(c, name="wfpsf_size_profile_fwhm") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: image
+            real(c_double), value :: x
+            real(c_double), value :: y
+            type(c_ptr), value :: options
+            real(c_double), intent(inout), optional :: fwhm
+            integer(c_int32_t) :: outcome
+        end function wfpsf_size_profile_fwhm
     end interface
 
 end module wfpsf_c

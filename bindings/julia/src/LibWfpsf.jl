@@ -919,10 +919,10 @@ function wfpsf_moments_measure_weighted(image, x, y, Mxx, Mxy, Myy, out)
 end
 
 const wfpsf_moments_sums_pointer = Ref(C_NULL)
-function wfpsf_moments_sums(image, x, y, weight, sums)
+function wfpsf_moments_sums(image, x, y, weight, count, sums)
     return ccall(wfpsf_moments_sums_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64, Ptr{Float64},
-        Ptr{Float64}),
-        image, x, y, weight, sums)
+        Int64, Ptr{Float64}),
+        image, x, y, weight, count, sums)
 end
 
 const wfpsf_moments_measure_unweighted_pointer = Ref(C_NULL)
@@ -994,6 +994,27 @@ const wfpsf_size_fwhm_pointer = Ref(C_NULL)
 function wfpsf_size_fwhm(image, x, y, fwhm)
     return ccall(wfpsf_size_fwhm_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64, Ptr{Float64}),
         image, x, y, fwhm)
+end
+
+const wfpsf_size_ee_radius_derivative_pointer = Ref(C_NULL)
+function wfpsf_size_ee_radius_derivative(image, change, x, y, fraction, options, derivative)
+    return ccall(wfpsf_size_ee_radius_derivative_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Float64,
+        Float64, Float64, Ptr{Cvoid}, Ptr{Float64}),
+        image, change, x, y, fraction, options, derivative)
+end
+
+const wfpsf_size_profile_pointer = Ref(C_NULL)
+function wfpsf_size_profile(image, x, y, count, radii, options, profile)
+    return ccall(wfpsf_size_profile_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64, Int64,
+        Ptr{Float64}, Ptr{Cvoid}, Ptr{Float64}),
+        image, x, y, count, radii, options, profile)
+end
+
+const wfpsf_size_profile_fwhm_pointer = Ref(C_NULL)
+function wfpsf_size_profile_fwhm(image, x, y, options, fwhm)
+    return ccall(wfpsf_size_profile_fwhm_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64,
+        Ptr{Cvoid}, Ptr{Float64}),
+        image, x, y, options, fwhm)
 end
 
 const pointers = [
@@ -1114,6 +1135,9 @@ const pointers = [
     :wfpsf_size_encircled_energy => wfpsf_size_encircled_energy_pointer,
     :wfpsf_size_ee_radius => wfpsf_size_ee_radius_pointer,
     :wfpsf_size_fwhm => wfpsf_size_fwhm_pointer,
+    :wfpsf_size_ee_radius_derivative => wfpsf_size_ee_radius_derivative_pointer,
+    :wfpsf_size_profile => wfpsf_size_profile_pointer,
+    :wfpsf_size_profile_fwhm => wfpsf_size_profile_fwhm_pointer,
 ]
 
 """

@@ -106,11 +106,12 @@ WFPSF_EXPORT wfpsf_status wfpsf_moments_measure_weighted(const wfpsf_image *imag
  *
  * Given:    x, y    the point
  *           weight  Mxx, Mxy, Myy of a Gaussian weight about it; NULL: no weight
- * Returned: sums    15 of them: (j, k) = (0,0), (1,0), (0,1), (2,0), (1,1), (0,2), ..., (0,4)
+ *           count   how many are wanted, 0..15: 6 make the second order, 15 the fourth
+ * Returned: sums    (j, k) = (0,0), (1,0), (0,1), (2,0), (1,1), (0,2), (3,0), ..., (0,4)
  * Status:   ERROR_NULL, ERROR_NOT_FINITE, ERROR_RANGE
  */
 WFPSF_EXPORT wfpsf_status wfpsf_moments_sums(const wfpsf_image *image, double x, double y,
-                                             const double *weight, double *sums);
+                                             const double *weight, int64_t count, double *sums);
 
 /**
  * Unweighted moments over the whole image about a point, with compensated sums.
