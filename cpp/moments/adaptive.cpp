@@ -156,16 +156,19 @@ template <class T> class Iteration {
 
     Plan next_plan() {
         const double width = std::sqrt(here_.minor_variance());
-        const auto stride = static_cast<int64_t>(width / samples_per_sigma);
-        if (stride > 1 && last_step_ > 3e-3 && thin_passes_ < 6) {
+        const double reach2 = std::max(plan_.final ? plan_.reach2 : 0,
+                                       reach2_for(options_.tolerance / stiffness_, rim_));
+        const auto coarse = static_cast<int64_t>(width / samples_per_sigma);
+        // All but exact on a smooth image: then one pass over all pixels remains.
+        const auto fine = static_cast<int64_t>(width / (2 * samples_per_sigma));
+        const bool far = last_step_ > 0.02;
+        if (thin_passes_ < 6 && (far ? coarse : fine) > 1 && last_step_ > 1e-4) {
             ++thin_passes_;
-            return {24, stride, false};
+            return far ? Plan{24, coarse, false} : Plan{reach2, fine, false};
         }
-        if (last_step_ > 0.02)
+        if (far)
             return {24, 1, false};
-        return {std::max(plan_.final ? plan_.reach2 : 0,
-                         reach2_for(options_.tolerance / stiffness_, rim_)),
-                1, true};
+        return {reach2, 1, true};
     }
 
     void pass() {

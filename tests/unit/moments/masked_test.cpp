@@ -135,5 +135,65 @@ TEST(Masked, ABackgroundIsTakenOff) {
     EXPECT_LE(whitened_distance(truth, m.weight), 1e-8);
 }
 
+TEST(Masked, HardImagesGetAStatus) {
+    for (const MomentsMethod method :
+         {MomentsMethod::adaptive, MomentsMethod::least_squares, MomentsMethod::round}) {
+        const AdaptiveOptions options{.method = method};
+        const auto status = [&](const Plane<double> &image, View<const float> missing) {
+            return adaptive_moments(view_of(image), {}, options, missing).status;
+        };
+        EXPECT_EQ(adaptive_moments(View<const double>{}, {}, options).status,
+                  WFPSF_ERROR_MOMENTS_NO_PIXELS);
+        Plane<double> one(1, 1);
+        Plane<float> seen(1, 1);
+        EXPECT_EQ(status(one, seen.view()), WFPSF_ERROR_MOMENTS_FLUX);
+        one(0, 0) = 1;
+        EXPECT_LT(status(one, seen.view()), 0);
+        // Negative light, and a NaN that is not said to be missing.
+        Plane<double> image = gaussian_image(21, 21, gaussian_of(10, 10, 2, 0, 0), -1);
+        Plane<float> missing(21, 21);
+        missing(3, 3) = 1;
+        EXPECT_EQ(status(image, missing.view()), WFPSF_ERROR_MOMENTS_FLUX);
+        image = gaussian_image(21, 21, gaussian_of(10, 10, 2, 0, 0));
+        image(10, 11) = nan;
+        EXPECT_EQ(status(image, missing.view()), WFPSF_ERROR_NOT_FINITE);
+        missing(10, 11) = 1;
+        EXPECT_EQ(status(image, missing.view()), WFPSF_OK);
+        // Fluxes at the ends of the range of doubles.
+        for (const double flux : {1e-300, 1e300}) {
+            Plane<double> extreme = gaussian_image(21, 21, gaussian_of(10, 10, 1.5, 0, 0), flux);
+            extreme(10, 11) = nan;
+            const AdaptiveMoments m =
+                adaptive_moments(view_of(extreme), {}, options, missing.view());
+            EXPECT_EQ(m.status, WFPSF_OK) << m.line;
+            EXPECT_NEAR(m.flux / flux, 1, 1e-5);
+        }
+    }
+}
+
+// Whatever is missing of whatever noise, an answer comes, and a solution is stationary.
+TEST(Masked, NoiseAlwaysGetsAStatus) {
+    std::mt19937 random(11);
+    std::normal_distribution<double> normal;
+    for (int trial = 0; trial < 600; ++trial) {
+        const int64_t n = 3 + trial % 21;
+        Plane<double> image(n, n);
+        Plane<float> missing(n, n);
+        for (int64_t y = 0; y < n; ++y)
+            for (int64_t x = 0; x < n; ++x) {
+                missing(x, y) = normal(random) > 0.1 * (trial % 20) ? 1 : 0;
+                image(x, y) = missing(x, y) != 0 ? nan : std::pow(normal(random), 1 + trial % 3);
+            }
+        const AdaptiveOptions options{.method = static_cast<MomentsMethod>(trial % 3)};
+        const AdaptiveMoments m = adaptive_moments(view_of(image), {}, options, missing.view());
+        EXPECT_EQ(m.status == WFPSF_OK, m.line.empty());
+        if (m.status == WFPSF_OK) {
+            EXPECT_TRUE(std::isfinite(m.flux + m.rho4 + m.error_estimate + m.missing_fraction));
+            EXPECT_GE(m.missing_fraction, 0);
+            EXPECT_LE(m.gradient, 1e-5);
+        }
+    }
+}
+
 } // namespace
 } // namespace wfpsf
