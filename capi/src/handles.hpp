@@ -77,10 +77,11 @@ struct wfpsf_moments {
     std::variant<std::monostate, Fit, Sums> origin = {};
     int64_t nx = 0, ny = 0;
 
-    // Of the six sums that a fit answers to, and the answers of CENTROID_X to FLUX, by key.
+    // CENTROID_X to FLUX, by key: their derivatives along the six sums that they answer to.
+    using Slopes = std::array<std::pair<int32_t, std::array<double, 6>>, 12>;
     struct Covariance {
         std::array<std::array<double, 6>, 6> sums;
-        std::vector<std::pair<int32_t, std::array<double, 6>>> slopes;
+        Slopes slopes;
     };
     std::optional<Covariance> covariance = {};
 };

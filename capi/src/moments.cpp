@@ -20,6 +20,8 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
+using Slopes = wfpsf_moments::Slopes;
+
 // The numbers that derivatives and covariances are of.
 template <class N> using Numbers = std::array<std::pair<int32_t, N>, 12>;
 
@@ -105,17 +107,29 @@ Sensitivity sensitivity_of(const wfpsf_moments::Fit &fit, const Image &image, bo
         image.pixels());
 }
 
-template <class Moments>
-void add_slopes(std::vector<std::pair<int32_t, std::array<double, 6>>> &slopes,
-                const Moments &by_sum) {
-    for (int i = 0; i < 6; ++i)
-        for (const auto &[key, number] : numbers_of<HyperDual>(by_sum(i))) {
-            if (i == 0)
-                slopes.push_back({key, {}});
-            for (auto &[property, slope] : slopes)
-                if (property == key)
-                    slope[static_cast<size_t>(i)] = number.da;
+// The derivatives of CENTROID_X to FLUX along the six sums that they answer to.
+template <class BySum> Slopes slopes_by(BySum &&by_sum) {
+    Slopes slopes{};
+    for (size_t i = 0; i < 6; ++i) {
+        const Numbers<HyperDual> numbers = numbers_of<HyperDual>(by_sum(i));
+        for (size_t n = 0; n < numbers.size(); ++n) {
+            slopes[n].first = numbers[n].first;
+            slopes[n].second[i] = numbers[n].second.da;
         }
+    }
+    return slopes;
+}
+
+const std::array<double, 6> &slope_of(const Slopes &slopes, int32_t key) {
+    for (const auto &[property, slope] : slopes)
+        if (property == key)
+            return slope;
+    fail(WFPSF_ERROR_UNKNOWN_NAME, "key = %d: must be one of CENTROID_X to FLUX, %d..%d", key,
+         WFPSF_MOMENTS_CENTROID_X, WFPSF_MOMENTS_FLUX);
+}
+
+Slopes slopes_of(const Sensitivity &sensitivity) {
+    return slopes_by([&](size_t i) { return sensitivity.by_sum(static_cast<int>(i)); });
 }
 
 // Needs a solution, and a variance from one of its two sources.
@@ -132,7 +146,7 @@ void add_covariance(wfpsf_moments &moments, const wfpsf_image *image, const wfps
         variance ? std::visit([&](auto pixels) { return sensitivity.noise(pixels); },
                               variance->image.pixels())
                  : sensitivity.noise(View<const double>{&constant, moments.nx, moments.ny, 0, 0});
-    add_slopes(covariance.slopes, [&](int i) { return sensitivity.by_sum(i); });
+    covariance.slopes = slopes_of(sensitivity);
     moments.covariance = std::move(covariance);
 }
 
@@ -225,25 +239,17 @@ void require_solution(const wfpsf_moments *moments, const wfpsf_image *image) {
     require_size(image, moments->nx, moments->ny, "image");
 }
 
-// The result about whose sums a change acts: six sums of the image, each a variable of its own.
-template <class Body>
-void for_each_slope(const wfpsf_moments &moments, const Image &image, Body &&body) {
-    std::vector<std::pair<int32_t, std::array<double, 6>>> slopes;
-    if (const auto *fit = std::get_if<wfpsf_moments::Fit>(&moments.origin)) {
-        const Sensitivity sensitivity = sensitivity_of(*fit, image, false);
-        add_slopes(slopes, [&](int i) { return sensitivity.by_sum(i); });
-    } else {
-        const auto &origin = std::get<wfpsf_moments::Sums>(moments.origin);
-        const PixelSums values = sums_of(image, origin);
-        add_slopes(slopes, [&](int k) {
-            std::array<HyperDual, 6> sums;
-            for (size_t i = 0; i < 6; ++i)
-                sums[i] = HyperDual(values[i], i == static_cast<size_t>(k) ? 1 : 0, 0, 0);
-            return moments_of(origin, sums);
-        });
-    }
-    for (const auto &[key, slope] : slopes)
-        body(key, slope);
+Slopes slopes_of(const wfpsf_moments &moments, const Image &image) {
+    if (const auto *fit = std::get_if<wfpsf_moments::Fit>(&moments.origin))
+        return slopes_of(sensitivity_of(*fit, image, false));
+    const auto &origin = std::get<wfpsf_moments::Sums>(moments.origin);
+    const PixelSums values = sums_of(image, origin);
+    return slopes_by([&](size_t k) {
+        std::array<HyperDual, 6> sums;
+        for (size_t i = 0; i < 6; ++i)
+            sums[i] = HyperDual(values[i], i == k ? 1 : 0, 0, 0);
+        return moments_of(origin, sums);
+    });
 }
 
 MomentSet<HyperDual> derivatives(const wfpsf_moments &moments, const Image &image, const Image &a,
@@ -394,14 +400,8 @@ wfpsf_status wfpsf_moments_covariance(const wfpsf_moments *moments, int32_t key_
         if (!moments->covariance)
             fail(WFPSF_ERROR_ARGUMENT,
                  "moments: have no covariance, for want of a variance or of a solution");
-        const auto slope_of = [&](int32_t key) -> const std::array<double, 6> & {
-            for (const auto &[property, slope] : moments->covariance->slopes)
-                if (property == key)
-                    return slope;
-            fail(WFPSF_ERROR_UNKNOWN_NAME, "key = %d: must be one of CENTROID_X to FLUX, %d..%d",
-                 key, WFPSF_MOMENTS_CENTROID_X, WFPSF_MOMENTS_FLUX);
-        };
-        const auto &a = slope_of(key_a), &b = slope_of(key_b);
+        const Slopes &slopes = moments->covariance->slopes;
+        const auto &a = slope_of(slopes, key_a), &b = slope_of(slopes, key_b);
         double sum = 0;
         for (size_t i = 0; i < 6; ++i)
             for (size_t k = 0; k < 6; ++k)
@@ -442,21 +442,14 @@ wfpsf_status wfpsf_moments_influence(const wfpsf_moments *moments, const wfpsf_i
         require_size(influence, moments->nx, moments->ny, "influence");
         if (influence->image.type() != PixelType::float64)
             fail(WFPSF_ERROR_TYPE, "influence: must be float64");
-        std::optional<std::array<double, 6>> slope;
-        for_each_slope(*moments, image->image,
-                       [&](int32_t property, const std::array<double, 6> &k) {
-                           if (property == key)
-                               slope = k;
-                       });
-        if (!slope)
-            fail(WFPSF_ERROR_UNKNOWN_NAME, "key = %d: must be one of CENTROID_X to FLUX, %d..%d",
-                 key, WFPSF_MOMENTS_CENTROID_X, WFPSF_MOMENTS_FLUX);
+        const Slopes slopes = slopes_of(*moments, image->image);
+        const std::array<double, 6> &slope = slope_of(slopes, key);
         const View<double> out = std::get<View<double>>(influence->image.pixels());
         if (const auto *fit = std::get_if<wfpsf_moments::Fit>(&moments->origin)) {
-            influence_image(fit->solution.weight, *slope, view_of(fit->missing), out);
+            influence_image(fit->solution.weight, slope, view_of(fit->missing), out);
         } else {
             const auto &origin = std::get<wfpsf_moments::Sums>(moments->origin);
-            influence_image(origin.weight, origin.x, origin.y, *slope, out);
+            influence_image(origin.weight, origin.x, origin.y, slope, out);
         }
     });
 }
