@@ -35,7 +35,10 @@ Matrix5 allowed_steps(MomentsMethod method) {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double longest_step = 0.7;
-constexpr double narrowest_start = 1.2;   // pixels; below, iterations fall onto single pixels
+constexpr double narrowest_start = 1.2; // pixels; below, iterations fall onto single pixels
+// Sums over pixels of a Gaussian of sigma/sqrt(2) differ from integrals by 2 exp(-(pi sigma)^2),
+// and second moments by 2 (pi sigma)^2 times that: 1% here.
+constexpr double narrowest_sampled = 0.9;
 constexpr double samples_per_sigma = 1.7; // thin grids keep that: aliasing then is about 1e-3
 constexpr double longest_reach2 = 90;
 constexpr double rounding = 1e-13;
@@ -433,6 +436,12 @@ AdaptiveMoments solve(const FitTarget<T> &target, const std::optional<Gaussian> 
         report(result, WFPSF_WARNING_NEAR_DEGENERATE,
                "curvature = %.3g: the moments are poorly determined below %g", result.curvature,
                degenerate);
+    else if (options.method != MomentsMethod::least_squares &&
+             result.weight.minor_variance() < narrowest_sampled * narrowest_sampled)
+        report(
+            result, WFPSF_WARNING_UNDERSAMPLED,
+            "the minor axis is %.3g pixels: below %g the moments depend on where the pixels fall",
+            std::sqrt(result.weight.minor_variance()), narrowest_sampled);
     else if (result.error_estimate > options.tolerance)
         report(result, WFPSF_WARNING_NOT_CONVERGED, "error_estimate = %.3g: above tolerance = %.3g",
                result.error_estimate, options.tolerance);

@@ -21,6 +21,7 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_warning_not_certified = 110
     integer(c_int32_t), parameter :: wfpsf_warning_restarted = 120
     integer(c_int32_t), parameter :: wfpsf_warning_near_degenerate = 130
+    integer(c_int32_t), parameter :: wfpsf_warning_undersampled = 140
     integer(c_int32_t), parameter :: wfpsf_error_null = -10
     integer(c_int32_t), parameter :: wfpsf_error_argument = -20
     integer(c_int32_t), parameter :: wfpsf_error_range = -30

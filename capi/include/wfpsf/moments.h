@@ -56,15 +56,17 @@ enum { WFPSF_MOMENTS_PROPERTY_LIST(WFPSF_MOMENTS_PROPERTY_ENUM) };
  *
  * MOMENTS_METHOD 1 fits A w to the pixels by least squares at their centres. Where pixels sample
  * the object finely it is the same; where they do not, it has solutions and method 0 ends with
- * ERROR_MOMENTS_UNRESOLVED. Method 2 keeps the weight round: SIGMA is the weight's, E1 and E2 are
- * the weighted moments', and M is the matrix of that size and shape.
+ * ERROR_MOMENTS_UNRESOLVED, or WARNING_UNDERSAMPLED where the minor axis is below 0.9 pixels and
+ * the result depends on where the pixels fall by some per cent. Method 2 keeps the weight
+ * round: SIGMA is the weight's, E1 and E2 are the weighted moments', and M is the matrix of that
+ * size and shape.
  *
  * Given:    image    any size and strides
  *           options  MOMENTS_*
  * Returned: out      the result, also when the measurement fails: it then holds the last iterate.
  *                    NULL only if the arguments are not valid or memory runs out
- * Status:   OK; WARNING_NOT_CONVERGED, WARNING_RESTARTED, WARNING_NEAR_DEGENERATE;
- *           ERROR_MOMENTS_* or ERROR_NOT_FINITE (a NaN under the weight) with a result;
+ * Status:   OK; WARNING_NOT_CONVERGED, WARNING_RESTARTED, WARNING_NEAR_DEGENERATE,
+ * WARNING_UNDERSAMPLED; ERROR_MOMENTS_* or ERROR_NOT_FINITE (a NaN under the weight) with a result;
  *           ERROR_NULL, ERROR_NO_MEMORY without
  */
 WFPSF_EXPORT wfpsf_status wfpsf_moments_measure(const wfpsf_image *image,

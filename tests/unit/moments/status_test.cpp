@@ -107,6 +107,23 @@ TEST(AdaptiveStatus, ObjectsSmallerThanAPixelAreRefused) {
     }
 }
 
+// Down to 0.9 pixels the integral of w^2 stands for its sum to a per cent; below, a warning says
+// that it does not.
+TEST(AdaptiveStatus, SmallObjectsThatAreSolvedCarryAWarning) {
+    for (int phase = 0; phase < 16; ++phase) {
+        const double x = 16 + 0.25 * (phase % 4), y = 16 + 0.25 * (phase / 4);
+        const Gaussian fine = gaussian_of(x, y, 0.97, 0.05, 0);
+        const AdaptiveMoments m = adaptive_moments(view_of(gaussian_image(33, 33, fine)));
+        EXPECT_EQ(m.status, WFPSF_OK) << m.line;
+        EXPECT_LE(whitened_distance(fine, m.weight), 2e-2);
+        const Gaussian coarse = gaussian_of(x, y, 0.75, 0.05, 0);
+        const wfpsf_status status = status_of(gaussian_image(33, 33, coarse));
+        EXPECT_TRUE(status == WFPSF_WARNING_UNDERSAMPLED || status < 0) << status;
+    }
+    EXPECT_EQ(status_of(gaussian_image(33, 33, gaussian_of(16.5, 16.5, 0.75, 0, 0))),
+              WFPSF_WARNING_UNDERSAMPLED);
+}
+
 TEST(AdaptiveStatus, AFrameFillsTheImage) {
     // The light lies along the border: the best weight reaches far beyond it.
     Plane<double> image(9, 9);
