@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Adaptive moments and EE50 of an obscured Airy pattern averaged over the native pixel. Errors are
-// against the same star sampled at another rate and measured to the last digit: both sample a
-// band-limited image finely enough to agree to rounding.
+// Moments, their derivatives, and EE50 of an obscured Airy pattern averaged over the native pixel.
+// Errors are against the same star sampled at another rate and measured to the last digit: both
+// sample a band-limited image finely enough to agree to rounding.
 #include "harness.hpp"
 #include "instrument/instrument.hpp"
 #include "moments/adaptive.hpp"
 #include "moments/encircled.hpp"
+#include "moments/sensitivity.hpp"
 #include "optics/psf.hpp"
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace wfpsf::bench {
 
@@ -37,37 +39,125 @@ Gaussian guess(int64_t n, int64_t N) {
             .Myy = size * size};
 }
 
-double native_sigma(const Plane<double> &image, int64_t N, double tolerance) {
-    return adaptive_moments(image.view(), guess(image.nx(), N), {.tolerance = tolerance}).sigma() /
+double native_sigma(const Plane<double> &image, int64_t N, const AdaptiveOptions &options) {
+    return adaptive_moments(image.view(), guess(image.nx(), N), options).sigma() /
            static_cast<double>(N);
 }
 
-Case adaptive_case(int64_t n, int64_t N, double target_s) {
-    char name[64];
-    std::snprintf(name, sizeof name, "adaptive moments %lld^2 (N = %lld), tolerance 1e-8",
-                  static_cast<long long>(n), static_cast<long long>(N));
-    return {name, "relative error of sigma", target_s, 1e-8, [=] {
+double true_sigma() {
+    return native_sigma(star(24 * 20, 20), 20, {.tolerance = 1e-12});
+}
+
+std::string name_of(const char *what, int64_t n, int64_t N, const char *how, double tolerance) {
+    char name[96];
+    std::snprintf(name, sizeof name, "%s %lld^2 (N = %lld), %s%.0e", what,
+                  static_cast<long long>(n), static_cast<long long>(N), how, tolerance);
+    return name;
+}
+
+Case adaptive_case(int64_t n, int64_t N, double tolerance, double target_s) {
+    return {name_of("adaptive moments", n, N, "tolerance ", tolerance), "relative error of sigma",
+            target_s, tolerance, [=] {
                 const Plane<double> image = star(n, N);
-                const double truth = native_sigma(star(24 * 20, 20), 20, 1e-12);
+                const AdaptiveOptions options{.tolerance = tolerance};
                 Measured m;
-                m.timing =
-                    time([&] { adaptive_moments(image.view(), guess(n, N), {.tolerance = 1e-8}); });
-                m.error = std::abs(native_sigma(image, N, 1e-8) / truth - 1);
+                m.timing = time([&] { adaptive_moments(image.view(), guess(n, N), options); });
+                m.error = std::abs(native_sigma(image, N, options) / true_sigma() - 1);
                 return m;
             }};
 }
 
-Case ee50_case() {
-    return {"EE50 512^2 (N = 32), integral of the image", "relative error", 0, 1e-9, [] {
-                const auto ee50 = [](const Plane<double> &image, int64_t N) {
+// Of more images in turn than the cache holds.
+Case cold_case(int64_t n, int64_t N) {
+    return {name_of("adaptive moments", n, N, "cold cache, tolerance ", 1e-8),
+            "relative error of sigma", 0, 1e-8, [=] {
+                const Plane<double> image = star(n, N);
+                const std::vector<Plane<double>> copies(
+                    static_cast<size_t>(1 + 100000000 / (8 * n * n)), image);
+                size_t next = 0;
+                Measured m;
+                m.timing = time([&] {
+                    adaptive_moments(copies[next].view(), guess(n, N));
+                    next = (next + 1) % copies.size();
+                });
+                m.error = std::abs(native_sigma(image, N, {}) / true_sigma() - 1);
+                return m;
+            }};
+}
+
+// With a pixel missing at the centre: the error is what it moves sigma by.
+Case masked_case() {
+    return {"adaptive moments 128^2 (N = 8), centre missing", "relative change of sigma", 0, 0, [] {
+                const Plane<double> image = star(128, 8);
+                Plane<float> missing(128, 128);
+                missing(64, 64) = 1;
+                const auto measured = [&] {
+                    return adaptive_moments(image.view(), guess(128, 8), {}, missing.view());
+                };
+                Measured m;
+                m.timing = time([&] { measured(); });
+                m.error = std::abs(measured().sigma() / 8 / true_sigma() - 1);
+                return m;
+            }};
+}
+
+// Analytic derivatives along a change of the image, given the solution; the error is against
+// central differences of whole measurements, extrapolated.
+Case derivative_case(bool second) {
+    return {second ? "second derivatives of all moments 512^2 (N = 32)"
+                   : "derivatives of all moments 512^2 (N = 32)",
+            "relative error, sigma", 0, 1e-8, [=] {
+                const Plane<double> image = star(512, 32);
+                Plane<double> change(512, 512); // to a neighbour, one native pixel away
+                for (int64_t y = 0; y < 512; ++y)
+                    for (int64_t x = 32; x < 512; ++x)
+                        change(x, y) = image(x - 32, y);
+                const AdaptiveOptions options{.tolerance = 1e-12};
+                const auto measured = [&](double t) {
+                    Plane<double> sum = image;
+                    for (int64_t y = 0; y < 512; ++y)
+                        for (int64_t x = 0; x < 512; ++x)
+                            sum(x, y) += t * change(x, y);
+                    return adaptive_moments(std::as_const(sum).view(), guess(512, 32), options);
+                };
+                const AdaptiveMoments at = measured(0);
+                const auto derived = [&] {
+                    const Sensitivity sensitivity(image.view(), at, options, {}, second);
+                    const WeightedSums sums = sensitivity.sums_of(std::as_const(change).view());
+                    const HyperDual sigma = shape_of(sensitivity.along(sums, sums)).sigma;
+                    return second ? sigma.dab : sigma.da;
+                };
+                const auto difference = [&](double h) {
+                    const double up = measured(h).sigma(), down = measured(-h).sigma();
+                    return second ? (up - 2 * at.sigma() + down) / (h * h) : (up - down) / (2 * h);
+                };
+                const double h = second ? 8e-3 : 2e-3;
+                const double f1 = difference(h), f2 = difference(2 * h), f4 = difference(4 * h);
+                const double expected = (16 * (4 * f1 - f2) / 3 - (4 * f2 - f4) / 3) / 15;
+                Measured m;
+                m.timing = time([&] { derived(); });
+                m.error = std::abs(derived() / expected - 1);
+                return m;
+            }};
+}
+
+// The bandwidth is that of the image at this sampling, or the default, which is any image's that is
+// sampled at twice Nyquist's rate.
+Case ee50_case(double bandwidth, double eps) {
+    char name[96];
+    std::snprintf(name, sizeof name, "EE50 512^2 (N = 32), bandwidth %g, eps %.0e", bandwidth, eps);
+    return {name, "relative error", 0, eps, [=] {
+                const auto ee50 = [](const Plane<double> &image, int64_t N,
+                                     const EncircledOptions &options) {
                     const double centre = static_cast<double>(image.nx() - 1) / 2 + 0.3;
-                    return encircled_radius(image.view(), centre, centre, 0.5, 1).radius /
+                    return encircled_radius(image.view(), centre, centre, 0.5, 1, options).radius /
                            static_cast<double>(N);
                 };
                 const Plane<double> image = star(512, 32);
+                const EncircledOptions options{.bandwidth = bandwidth, .eps = eps};
                 Measured m;
-                m.timing = time([&] { ee50(image, 32); });
-                m.error = std::abs(ee50(image, 32) / ee50(star(24 * 20, 20), 20) - 1);
+                m.timing = time([&] { ee50(image, 32, options); });
+                m.error = std::abs(ee50(image, 32, options) / ee50(star(24 * 20, 20), 20, {}) - 1);
                 return m;
             }};
 }
@@ -75,8 +165,22 @@ Case ee50_case() {
 } // namespace
 
 std::vector<Case> moments_cases() {
-    return {adaptive_case(32, 4, 12e-6), adaptive_case(128, 8, 15e-6),
-            adaptive_case(512, 32, 60e-6), ee50_case()};
+    std::vector<Case> cases;
+    for (const double tolerance : {1e-4, 1e-8, 1e-11}) {
+        const bool aim = tolerance == 1e-8;
+        cases.push_back(adaptive_case(32, 4, tolerance, aim ? 12e-6 : 0));
+        cases.push_back(adaptive_case(128, 8, tolerance, aim ? 15e-6 : 0));
+        cases.push_back(adaptive_case(512, 32, tolerance, aim ? 60e-6 : 0));
+    }
+    cases.push_back(cold_case(128, 8));
+    cases.push_back(cold_case(512, 32));
+    cases.push_back(masked_case());
+    cases.push_back(derivative_case(false));
+    cases.push_back(derivative_case(true));
+    for (const double bandwidth : {0.05, 0.25})
+        for (const double eps : {1e-6, 1e-12})
+            cases.push_back(ee50_case(bandwidth, eps));
+    return cases;
 }
 
 } // namespace wfpsf::bench

@@ -7,14 +7,18 @@
 #include "detector/varying_ipc.hpp"
 #include "image/image.hpp"
 #include "instrument/instrument.hpp"
+#include "moments/adaptive.hpp"
+#include "moments/pixel_moments.hpp"
 #include "optics/otf.hpp"
 #include "optics/psf.hpp"
 #include "optics/varying_psf.hpp"
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <wfpsf/wfpsf.h>
@@ -62,6 +66,29 @@ struct wfpsf_chain {
 struct wfpsf_moments {
     wfpsf_status status;
     std::vector<std::pair<int32_t, double>> properties; // by key
+
+    // How it was measured, for its derivatives: as the solution of a fit, or from sums. None for a
+    // result that is a derivative.
+    struct Fit {
+        wfpsf::AdaptiveOptions options;
+        wfpsf::AdaptiveMoments solution;
+        std::shared_ptr<const wfpsf::Plane<float>> missing;
+    };
+    struct Sums {
+        double x, y;
+        std::optional<wfpsf::Gaussian> weight;
+        wfpsf::Centre centre;
+    };
+    std::variant<std::monostate, Fit, Sums> origin = {};
+    int64_t nx = 0, ny = 0;
+
+    // CENTROID_X to FLUX, by key: their derivatives along the six sums that they answer to.
+    using Slopes = std::array<std::pair<int32_t, std::array<double, 6>>, 12>;
+    struct Covariance {
+        std::array<std::array<double, 6>, 6> sums;
+        Slopes slopes;
+    };
+    std::optional<Covariance> covariance = {};
 };
 
 namespace wfpsf {

@@ -2,8 +2,13 @@
 #include "funnel.hpp"
 #include "handles.hpp"
 #include "moments/adaptive.hpp"
+#include "moments/moment_set.hpp"
+#include "moments/pixel_moments.hpp"
+#include "moments/sensitivity.hpp"
 #include "moments/unweighted.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -13,22 +18,32 @@ using namespace wfpsf;
 
 namespace {
 
-// Centroid and matrix, and what follows from them.
-void add_ellipse(wfpsf_moments &moments, double x, double y, double Mxx, double Mxy, double Myy) {
-    const double trace = Mxx + Myy;
-    const double e1 = (Mxx - Myy) / trace, e2 = 2 * Mxy / trace;
-    moments.properties.insert(moments.properties.end(),
-                              {{WFPSF_MOMENTS_CENTROID_X, x},
-                               {WFPSF_MOMENTS_CENTROID_Y, y},
-                               {WFPSF_MOMENTS_MXX, Mxx},
-                               {WFPSF_MOMENTS_MXY, Mxy},
-                               {WFPSF_MOMENTS_MYY, Myy},
-                               {WFPSF_MOMENTS_SIGMA, std::pow(Mxx * Myy - Mxy * Mxy, 0.25)},
-                               {WFPSF_MOMENTS_SIGMA_TRACE, std::sqrt(trace)},
-                               {WFPSF_MOMENTS_E1, e1},
-                               {WFPSF_MOMENTS_E2, e2},
-                               {WFPSF_MOMENTS_E, std::hypot(e1, e2)},
-                               {WFPSF_MOMENTS_BETA, std::atan2(e2, e1) / 2}});
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+using Slopes = wfpsf_moments::Slopes;
+
+// The numbers that derivatives and covariances are of.
+template <class N> using Numbers = std::array<std::pair<int32_t, N>, 12>;
+
+template <class N> Numbers<N> numbers_of(const MomentSet<N> &m) {
+    const Shape<N> shape = shape_of(m);
+    return {{{WFPSF_MOMENTS_CENTROID_X, m.x},
+             {WFPSF_MOMENTS_CENTROID_Y, m.y},
+             {WFPSF_MOMENTS_MXX, m.Mxx},
+             {WFPSF_MOMENTS_MXY, m.Mxy},
+             {WFPSF_MOMENTS_MYY, m.Myy},
+             {WFPSF_MOMENTS_SIGMA, shape.sigma},
+             {WFPSF_MOMENTS_SIGMA_TRACE, shape.sigma_trace},
+             {WFPSF_MOMENTS_E1, shape.e1},
+             {WFPSF_MOMENTS_E2, shape.e2},
+             {WFPSF_MOMENTS_E, shape.e},
+             {WFPSF_MOMENTS_BETA, shape.beta},
+             {WFPSF_MOMENTS_FLUX, m.flux}}};
+}
+
+void add_ellipse(wfpsf_moments &moments, const MomentSet<double> &m) {
+    const Numbers<double> numbers = numbers_of(m);
+    moments.properties.insert(moments.properties.end(), numbers.begin(), numbers.end());
 }
 
 // The first guess, if the caller gave a part of one: the rest is the image's centre and the size of
@@ -48,37 +63,279 @@ std::optional<Gaussian> guess(const Image &image, const wfpsf_options *options) 
                     .Myy = size * size};
 }
 
+AdaptiveOptions adaptive_options(const wfpsf_options *options) {
+    return {.tolerance = option(options, WFPSF_OPTION_MOMENTS_TOLERANCE),
+            .max_passes = static_cast<int>(option(options, WFPSF_OPTION_MOMENTS_MAX_PASSES)),
+            .method = static_cast<MomentsMethod>(
+                static_cast<int>(option(options, WFPSF_OPTION_MOMENTS_METHOD))),
+            .background = option(options, WFPSF_OPTION_MOMENTS_BACKGROUND),
+            .restart = flag(options, WFPSF_OPTION_MOMENTS_RESTART)};
+}
+
+void require_size(const wfpsf_image *image, int64_t nx, int64_t ny, const char *argument) {
+    if (image->image.nx() != nx || image->image.ny() != ny)
+        fail(WFPSF_ERROR_SIZE, "%s: has %lld x %lld pixels, must have %lld x %lld", argument,
+             static_cast<long long>(image->image.nx()), static_cast<long long>(image->image.ny()),
+             static_cast<long long>(nx), static_cast<long long>(ny));
+}
+
+// One where a pixel is missing; none if no pixel is.
+std::shared_ptr<const Plane<float>> missing_pixels(const wfpsf_image &mask) {
+    auto missing = std::make_shared<Plane<float>>(mask.image.nx(), mask.image.ny());
+    bool any = false;
+    std::visit(
+        [&](auto pixels) {
+            for (int64_t y = 0; y < pixels.ny; ++y)
+                for (int64_t x = 0; x < pixels.nx; ++x) {
+                    (*missing)(x, y) = pixels(x, y) != 0 ? 1 : 0;
+                    any = any || pixels(x, y) != 0;
+                }
+        },
+        mask.image.pixels());
+    return any ? missing : nullptr;
+}
+
+View<const float> view_of(const std::shared_ptr<const Plane<float>> &missing) {
+    return missing ? missing->view() : View<const float>{};
+}
+
+Sensitivity sensitivity_of(const wfpsf_moments::Fit &fit, const Image &image, bool second) {
+    return std::visit(
+        [&](auto pixels) {
+            return Sensitivity(pixels, fit.solution, fit.options, view_of(fit.missing), second);
+        },
+        image.pixels());
+}
+
+// The derivatives of CENTROID_X to FLUX along the six sums that they answer to.
+template <class BySum> Slopes slopes_by(BySum &&by_sum) {
+    Slopes slopes{};
+    for (size_t i = 0; i < 6; ++i) {
+        const Numbers<HyperDual> numbers = numbers_of<HyperDual>(by_sum(i));
+        for (size_t n = 0; n < numbers.size(); ++n) {
+            slopes[n].first = numbers[n].first;
+            slopes[n].second[i] = numbers[n].second.da;
+        }
+    }
+    return slopes;
+}
+
+const std::array<double, 6> &slope_of(const Slopes &slopes, int32_t key) {
+    for (const auto &[property, slope] : slopes)
+        if (property == key)
+            return slope;
+    fail(WFPSF_ERROR_UNKNOWN_NAME, "key = %d: must be one of CENTROID_X to FLUX, %d..%d", key,
+         WFPSF_MOMENTS_CENTROID_X, WFPSF_MOMENTS_FLUX);
+}
+
+Slopes slopes_of(const Sensitivity &sensitivity) {
+    return slopes_by([&](size_t i) { return sensitivity.by_sum(static_cast<int>(i)); });
+}
+
+// Needs a solution, and a variance from one of its two sources.
+void add_covariance(wfpsf_moments &moments, const wfpsf_image *image, const wfpsf_image *variance,
+                    const wfpsf_options *options) {
+    const auto &fit = std::get<wfpsf_moments::Fit>(moments.origin);
+    const double constant = option(options, WFPSF_OPTION_MOMENTS_VARIANCE);
+    if (moments.status < 0 || moments.status == WFPSF_WARNING_NOT_CONVERGED ||
+        (!variance && std::isnan(constant)))
+        return;
+    const Sensitivity sensitivity = sensitivity_of(fit, image->image, false);
+    wfpsf_moments::Covariance covariance;
+    covariance.sums =
+        variance ? std::visit([&](auto pixels) { return sensitivity.noise(pixels); },
+                              variance->image.pixels())
+                 : sensitivity.noise(View<const double>{&constant, moments.nx, moments.ny, 0, 0});
+    covariance.slopes = slopes_of(sensitivity);
+    moments.covariance = std::move(covariance);
+}
+
+wfpsf_status measure(const wfpsf_image *image, const wfpsf_image *mask, const wfpsf_image *variance,
+                     const wfpsf_options *options, wfpsf_moments **out) {
+    require_pointer(out, "out");
+    *out = nullptr;
+    require_pointer(image, "image");
+    const int64_t nx = image->image.nx(), ny = image->image.ny();
+    if (mask)
+        require_size(mask, nx, ny, "missing");
+    if (variance)
+        require_size(variance, nx, ny, "variance");
+
+    wfpsf_moments::Fit fit;
+    fit.options = adaptive_options(options);
+    if (mask)
+        fit.missing = missing_pixels(*mask);
+    fit.solution = std::visit(
+        [&](auto pixels) {
+            return adaptive_moments(pixels, guess(image->image, options), fit.options,
+                                    view_of(fit.missing));
+        },
+        image->image.pixels());
+    const AdaptiveMoments &m = fit.solution;
+    auto result = std::make_unique<wfpsf_moments>();
+    result->status = m.status;
+    result->nx = nx;
+    result->ny = ny;
+    MomentSet<double> ellipse{m.weight.x,   m.weight.y,   m.weight.Mxx,
+                              m.weight.Mxy, m.weight.Myy, m.flux};
+    if (fit.options.method == MomentsMethod::round)
+        set_matrix(ellipse, std::sqrt(m.weight.det()), m.e1, m.e2);
+    add_ellipse(*result, ellipse);
+    result->properties.insert(
+        result->properties.end(),
+        {{WFPSF_MOMENTS_RHO4, m.rho4},
+         {WFPSF_MOMENTS_PASSES, m.passes},
+         {WFPSF_MOMENTS_ERROR_ESTIMATE, m.status < 0 ? nan : m.error_estimate},
+         {WFPSF_MOMENTS_RESIDUAL, m.gradient},
+         {WFPSF_MOMENTS_CURVATURE, m.curvature},
+         {WFPSF_MOMENTS_EDGE_FRACTION, m.edge_fraction},
+         {WFPSF_MOMENTS_MISSING_FRACTION, m.missing_fraction},
+         {WFPSF_MOMENTS_AMPLITUDE, m.amplitude()},
+         {WFPSF_MOMENTS_LAST_STEP, m.last_step},
+         {WFPSF_MOMENTS_PIXELS, static_cast<double>(m.pixels)}});
+    const std::string line = m.line;
+    result->origin = std::move(fit);
+    *out = result.release();
+    add_covariance(**out, image, variance, options);
+    const wfpsf_status status = (*out)->status;
+    return status == WFPSF_OK ? status : record_error(status, line.c_str());
+}
+
+// Of six sums about the point, each with its derivatives.
+MomentSet<HyperDual> moments_of(const wfpsf_moments::Sums &origin,
+                                const std::array<HyperDual, 6> &sums) {
+    return moments_of_sums(sums, origin.x, origin.y, origin.centre);
+}
+
+PixelSums sums_of(const Image &image, const wfpsf_moments::Sums &origin) {
+    return std::visit(
+        [&](auto pixels) {
+            return origin.weight ? pixel_sums(pixels, *origin.weight)
+                                 : pixel_sums(pixels, origin.x, origin.y);
+        },
+        image.pixels());
+}
+
+Gaussian checked_weight(double x, double y, double Mxx, double Mxy, double Myy) {
+    if (!std::isfinite(x + y + Mxx + Mxy + Myy))
+        fail(WFPSF_ERROR_NOT_FINITE, "weight = (%g, %g; %g, %g, %g): must be finite", x, y, Mxx,
+             Mxy, Myy);
+    const Gaussian weight{x, y, Mxx, Mxy, Myy};
+    if (!(Mxx > 0 && Myy > 0 && weight.det() > 0))
+        fail(WFPSF_ERROR_RANGE, "M of the weight = (%g, %g, %g): must be positive definite", Mxx,
+             Mxy, Myy);
+    return weight;
+}
+
+// The origin of a result that can be differentiated, on the image it was measured on.
+void require_solution(const wfpsf_moments *moments, const wfpsf_image *image) {
+    require_pointer(moments, "moments");
+    require_pointer(image, "image");
+    if (std::holds_alternative<std::monostate>(moments->origin))
+        fail(WFPSF_ERROR_ARGUMENT, "moments: are derivatives themselves");
+    if (moments->status < 0 || moments->status == WFPSF_WARNING_NOT_CONVERGED)
+        fail(WFPSF_ERROR_ARGUMENT, "moments: ended with status %d, which is no solution",
+             moments->status);
+    require_size(image, moments->nx, moments->ny, "image");
+}
+
+Slopes slopes_of(const wfpsf_moments &moments, const Image &image) {
+    if (const auto *fit = std::get_if<wfpsf_moments::Fit>(&moments.origin))
+        return slopes_of(sensitivity_of(*fit, image, false));
+    const auto &origin = std::get<wfpsf_moments::Sums>(moments.origin);
+    const PixelSums values = sums_of(image, origin);
+    return slopes_by([&](size_t k) {
+        std::array<HyperDual, 6> sums;
+        for (size_t i = 0; i < 6; ++i)
+            sums[i] = HyperDual(values[i], i == k ? 1 : 0, 0, 0);
+        return moments_of(origin, sums);
+    });
+}
+
+MomentSet<HyperDual> derivatives(const wfpsf_moments &moments, const Image &image, const Image &a,
+                                 const Image *b) {
+    if (const auto *fit = std::get_if<wfpsf_moments::Fit>(&moments.origin)) {
+        const Sensitivity sensitivity = sensitivity_of(*fit, image, b != nullptr);
+        const auto sums = [&](const Image &change) {
+            return std::visit([&](auto pixels) { return sensitivity.sums_of(pixels); },
+                              change.pixels());
+        };
+        const WeightedSums along_a = sums(a);
+        return sensitivity.along(along_a, b ? sums(*b) : along_a);
+    }
+    const auto &origin = std::get<wfpsf_moments::Sums>(moments.origin);
+    const PixelSums value = sums_of(image, origin), along_a = sums_of(a, origin);
+    const PixelSums along_b = b ? sums_of(*b, origin) : along_a;
+    std::array<HyperDual, 6> sums;
+    for (size_t i = 0; i < 6; ++i)
+        sums[i] = HyperDual(value[i], along_a[i], along_b[i], 0);
+    return moments_of(origin, sums);
+}
+
 } // namespace
 
 wfpsf_status wfpsf_moments_measure(const wfpsf_image *image, const wfpsf_options *options,
                                    wfpsf_moments **out) {
+    return guarded([&] { return measure(image, nullptr, nullptr, options, out); });
+}
+
+wfpsf_status wfpsf_moments_measure_masked(const wfpsf_image *image, const wfpsf_image *missing,
+                                          const wfpsf_image *variance, const wfpsf_options *options,
+                                          wfpsf_moments **out) {
+    return guarded([&] { return measure(image, missing, variance, options, out); });
+}
+
+wfpsf_status wfpsf_moments_measure_weighted(const wfpsf_image *image, double x, double y,
+                                            double Mxx, double Mxy, double Myy,
+                                            wfpsf_moments **out) {
     return guarded([&] {
         require_pointer(out, "out");
         *out = nullptr;
         require_pointer(image, "image");
-        const AdaptiveOptions adaptive{
-            .tolerance = option(options, WFPSF_OPTION_MOMENTS_TOLERANCE),
-            .max_passes = static_cast<int>(option(options, WFPSF_OPTION_MOMENTS_MAX_PASSES))};
-        const AdaptiveMoments m = std::visit(
-            [&](auto pixels) {
-                return adaptive_moments(pixels, guess(image->image, options), adaptive);
-            },
-            image->image.pixels());
-        constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+        const wfpsf_moments::Sums origin{x, y, checked_weight(x, y, Mxx, Mxy, Myy),
+                                         Centre::weighted};
+        if (image->image.nx() == 0 || image->image.ny() == 0)
+            fail(WFPSF_ERROR_MOMENTS_NO_PIXELS, "image: is empty");
+        const PixelSums values = sums_of(image->image, origin);
+        if (!std::isfinite(values[14] + values[10] + values[0]))
+            fail(WFPSF_ERROR_NOT_FINITE, "sum of I w = %g: pixels under the weight must be finite",
+                 values[0]);
+        if (values[0] == 0)
+            fail(WFPSF_ERROR_MOMENTS_FLUX, "sum of I w = 0: must not be zero");
+        std::array<HyperDual, 6> sums;
+        std::copy_n(values.begin(), 6, sums.begin());
+        const MomentSet<HyperDual> m = moments_of(origin, sums);
         auto result = std::make_unique<wfpsf_moments>();
-        result->status = m.status;
-        add_ellipse(*result, m.weight.x, m.weight.y, m.weight.Mxx, m.weight.Mxy, m.weight.Myy);
-        result->properties.insert(
-            result->properties.end(),
-            {{WFPSF_MOMENTS_FLUX, m.flux},
-             {WFPSF_MOMENTS_RHO4, m.rho4},
-             {WFPSF_MOMENTS_PASSES, m.passes},
-             {WFPSF_MOMENTS_ERROR_ESTIMATE, m.status < 0 ? nan : m.error_estimate},
-             {WFPSF_MOMENTS_RESIDUAL, m.gradient},
-             {WFPSF_MOMENTS_CURVATURE, m.curvature},
-             {WFPSF_MOMENTS_EDGE_FRACTION, m.edge_fraction}});
+        result->status = WFPSF_OK;
+        add_ellipse(*result,
+                    {m.x.value, m.y.value, m.Mxx.value, m.Mxy.value, m.Myy.value, m.flux.value});
+        result->origin = origin;
+        result->nx = image->image.nx();
+        result->ny = image->image.ny();
         *out = result.release();
-        return m.status == WFPSF_OK ? m.status : record_error(m.status, m.line.c_str());
+    });
+}
+
+wfpsf_status wfpsf_moments_sums(const wfpsf_image *image, double x, double y, const double *weight,
+                                int64_t count, double *sums) {
+    return guarded([&] {
+        require_pointer(image, "image");
+        if (count < 0 || count > 15)
+            fail(WFPSF_ERROR_RANGE, "count = %lld: must be 0..15", static_cast<long long>(count));
+        if (count == 0)
+            return;
+        require_pointer(sums, "sums");
+        require_finite(x, "x");
+        require_finite(y, "y");
+        wfpsf_moments::Sums origin{x, y, {}, Centre::point};
+        if (weight)
+            origin.weight = checked_weight(x, y, weight[0], weight[1], weight[2]);
+        const PixelSums values = sums_of(image->image, origin);
+        for (const double value : values)
+            if (!std::isfinite(value))
+                fail(WFPSF_ERROR_NOT_FINITE, "a sum = %g: every pixel that counts must be finite",
+                     value);
+        std::copy_n(values.begin(), count, sums);
     });
 }
 
@@ -101,8 +358,11 @@ wfpsf_status wfpsf_moments_measure_unweighted(const wfpsf_image *image, double x
             image->image.pixels());
         auto result = std::make_unique<wfpsf_moments>();
         result->status = WFPSF_OK;
-        add_ellipse(*result, m.x, m.y, m.Mxx, m.Mxy, m.Myy);
-        result->properties.emplace_back(WFPSF_MOMENTS_FLUX, m.flux);
+        add_ellipse(*result, {m.x, m.y, m.Mxx, m.Mxy, m.Myy, m.flux});
+        result->origin =
+            wfpsf_moments::Sums{m.x, m.y, {}, about_centroid ? Centre::mean : Centre::point};
+        result->nx = image->image.nx();
+        result->ny = image->image.ny();
         *out = result.release();
     });
 }
@@ -129,5 +389,67 @@ wfpsf_status wfpsf_moments_get(const wfpsf_moments *moments, int32_t key, double
         for (const auto &[property, number] : moments->properties)
             if (property == key)
                 *value = number;
+    });
+}
+
+wfpsf_status wfpsf_moments_covariance(const wfpsf_moments *moments, int32_t key_a, int32_t key_b,
+                                      double *value) {
+    return guarded([&] {
+        require_pointer(moments, "moments");
+        require_pointer(value, "value");
+        if (!moments->covariance)
+            fail(WFPSF_ERROR_ARGUMENT,
+                 "moments: have no covariance, for want of a variance or of a solution");
+        const Slopes &slopes = moments->covariance->slopes;
+        const auto &a = slope_of(slopes, key_a), &b = slope_of(slopes, key_b);
+        double sum = 0;
+        for (size_t i = 0; i < 6; ++i)
+            for (size_t k = 0; k < 6; ++k)
+                sum += a[i] * moments->covariance->sums[i][k] * b[k];
+        *value = sum;
+    });
+}
+
+wfpsf_status wfpsf_moments_differentiate(const wfpsf_moments *moments, const wfpsf_image *image,
+                                         const wfpsf_image *change, const wfpsf_image *second,
+                                         wfpsf_moments **out) {
+    return guarded([&] {
+        require_pointer(out, "out");
+        *out = nullptr;
+        require_solution(moments, image);
+        require_pointer(change, "change");
+        require_size(change, moments->nx, moments->ny, "change");
+        if (second)
+            require_size(second, moments->nx, moments->ny, "second");
+        const MomentSet<HyperDual> m =
+            derivatives(*moments, image->image, change->image, second ? &second->image : nullptr);
+        auto result = std::make_unique<wfpsf_moments>();
+        result->status = WFPSF_OK;
+        for (const auto &[key, number] : numbers_of(m))
+            result->properties.emplace_back(key, second ? number.dab : number.da);
+        if (!std::isfinite(second ? m.Mxx.dab + m.flux.dab : m.Mxx.da + m.flux.da))
+            fail(WFPSF_ERROR_NOT_FINITE,
+                 "change: its pixels must be finite within reach of the weight");
+        *out = result.release();
+    });
+}
+
+wfpsf_status wfpsf_moments_influence(const wfpsf_moments *moments, const wfpsf_image *image,
+                                     int32_t key, wfpsf_image *influence) {
+    return guarded([&] {
+        require_solution(moments, image);
+        require_pointer(influence, "influence");
+        require_size(influence, moments->nx, moments->ny, "influence");
+        if (influence->image.type() != PixelType::float64)
+            fail(WFPSF_ERROR_TYPE, "influence: must be float64");
+        const Slopes slopes = slopes_of(*moments, image->image);
+        const std::array<double, 6> &slope = slope_of(slopes, key);
+        const View<double> out = std::get<View<double>>(influence->image.pixels());
+        if (const auto *fit = std::get_if<wfpsf_moments::Fit>(&moments->origin)) {
+            influence_image(fit->solution.weight, slope, view_of(fit->missing), out);
+        } else {
+            const auto &origin = std::get<wfpsf_moments::Sums>(moments->origin);
+            influence_image(origin.weight, origin.x, origin.y, slope, out);
+        }
     });
 }

@@ -5,9 +5,11 @@
 #include "moments/radial.hpp"
 #include "moments/unweighted.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <variant>
+#include <vector>
 
 using namespace wfpsf;
 
@@ -15,14 +17,23 @@ namespace {
 
 template <class T> double total_flux(View<const T> pixels, const wfpsf_options *options) {
     const double stated = option(options, WFPSF_OPTION_SIZE_TOTAL_FLUX);
-    const double total = std::isnan(stated) ? unweighted_moments(pixels).flux : stated;
+    const double total = std::isnan(stated) ? pixel_sum(pixels) : stated;
+    if (!std::isfinite(total))
+        fail(WFPSF_ERROR_NOT_FINITE, "sum of the pixels = %g: every pixel must be finite", total);
     if (!(total > 0))
         fail(WFPSF_ERROR_MOMENTS_FLUX, "sum of the pixels = %g: must be positive", total);
     return total;
 }
 
 EncircledOptions encircled_options(const wfpsf_options *options) {
-    return {.bandwidth = option(options, WFPSF_OPTION_SIZE_BANDWIDTH)};
+    return {.bandwidth = option(options, WFPSF_OPTION_SIZE_BANDWIDTH),
+            .eps = option(options, WFPSF_OPTION_SIZE_EPS)};
+}
+
+void require_fraction(double fraction) {
+    require_finite(fraction, "fraction");
+    if (!(fraction > 0 && fraction < 1))
+        fail(WFPSF_ERROR_RANGE, "fraction = %g: must lie between 0 and 1", fraction);
 }
 
 } // namespace
@@ -57,9 +68,7 @@ wfpsf_status wfpsf_size_ee_radius(const wfpsf_image *image, double x, double y, 
         require_pointer(radius, "radius");
         require_finite(x, "x");
         require_finite(y, "y");
-        require_finite(fraction, "fraction");
-        if (!(fraction > 0 && fraction < 1))
-            fail(WFPSF_ERROR_RANGE, "fraction = %g: must lie between 0 and 1", fraction);
+        require_fraction(fraction);
         if (method < WFPSF_SIZE_BANDLIMITED || method > WFPSF_SIZE_PIXEL_INTERPOLATED)
             fail(WFPSF_ERROR_ARGUMENT, "method = %d: must be one of WFPSF_SIZE_*, %d..%d", method,
                  WFPSF_SIZE_BANDLIMITED, WFPSF_SIZE_PIXEL_INTERPOLATED);
@@ -92,5 +101,82 @@ wfpsf_status wfpsf_size_fwhm(const wfpsf_image *image, double x, double y, doubl
         require_finite(y, "y");
         *fwhm = std::visit([&](auto pixels) { return full_width_half_maximum(pixels, x, y); },
                            std::as_const(image->image).pixels());
+    });
+}
+
+// R is where E(R) = fraction total, so E'(R) dR = fraction dtotal - dE(R).
+wfpsf_status wfpsf_size_ee_radius_derivative(const wfpsf_image *image, const wfpsf_image *change,
+                                             double x, double y, double fraction,
+                                             const wfpsf_options *options, double *derivative) {
+    return guarded([&] {
+        require_pointer(image, "image");
+        require_pointer(change, "change");
+        require_pointer(derivative, "derivative");
+        require_finite(x, "x");
+        require_finite(y, "y");
+        require_fraction(fraction);
+        if (change->image.nx() != image->image.nx() || change->image.ny() != image->image.ny())
+            fail(WFPSF_ERROR_SIZE, "change: has %lld x %lld pixels, the image %lld x %lld",
+                 static_cast<long long>(change->image.nx()),
+                 static_cast<long long>(change->image.ny()),
+                 static_cast<long long>(image->image.nx()),
+                 static_cast<long long>(image->image.ny()));
+        const EncircledOptions encircled = encircled_options(options);
+        const EncircledRadius r = std::visit(
+            [&](auto pixels) {
+                return encircled_radius(pixels, x, y, fraction, total_flux(pixels, options),
+                                        encircled);
+            },
+            std::as_const(image->image).pixels());
+        const bool stated = !std::isnan(option(options, WFPSF_OPTION_SIZE_TOTAL_FLUX));
+        const double excess = std::visit(
+            [&](auto pixels) {
+                const double total = stated ? 0 : pixel_sum(pixels);
+                return encircled_energy(pixels, x, y, r.radius, encircled).energy -
+                       fraction * total;
+            },
+            std::as_const(change->image).pixels());
+        require_finite(excess, "energy of the change");
+        *derivative = -excess / r.density;
+    });
+}
+
+wfpsf_status wfpsf_size_profile(const wfpsf_image *image, double x, double y, int64_t count,
+                                const double *radii, const wfpsf_options *options,
+                                double *profile) {
+    return guarded([&] {
+        require_pointer(image, "image");
+        require_finite(x, "x");
+        require_finite(y, "y");
+        if (count < 0)
+            fail(WFPSF_ERROR_SIZE, "count = %lld: must be 0 or more",
+                 static_cast<long long>(count));
+        if (count == 0)
+            return;
+        require_pointer(radii, "radii");
+        require_pointer(profile, "profile");
+        std::vector<double> means(static_cast<size_t>(count));
+        std::visit(
+            [&](auto pixels) {
+                for (size_t i = 0; i < means.size(); ++i) {
+                    require_finite(radii[i], "radius");
+                    means[i] = ring_mean(pixels, x, y, radii[i], encircled_options(options));
+                }
+            },
+            std::as_const(image->image).pixels());
+        std::copy(means.begin(), means.end(), profile);
+    });
+}
+
+wfpsf_status wfpsf_size_profile_fwhm(const wfpsf_image *image, double x, double y,
+                                     const wfpsf_options *options, double *fwhm) {
+    return guarded([&] {
+        require_pointer(image, "image");
+        require_pointer(fwhm, "fwhm");
+        require_finite(x, "x");
+        require_finite(y, "y");
+        *fwhm = std::visit(
+            [&](auto pixels) { return profile_fwhm(pixels, x, y, encircled_options(options)); },
+            std::as_const(image->image).pixels());
     });
 }

@@ -23,12 +23,26 @@ namespace {
 using Vector5 = Eigen::Matrix<double, 5, 1>;
 using Matrix5 = Eigen::Matrix<double, 5, 5>;
 
+// Projects on the steps that a method may take.
+Matrix5 allowed_steps(MomentsMethod method) {
+    Matrix5 projector = Matrix5::Identity();
+    if (method == MomentsMethod::round) {
+        projector(3, 3) = 0;
+        projector(2, 2) = projector(2, 4) = projector(4, 2) = projector(4, 4) = 0.5;
+    }
+    return projector;
+}
+
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double longest_step = 0.7;
-constexpr double narrowest_start = 1.2;   // pixels; below, iterations fall onto single pixels
+constexpr double narrowest_start = 1.2; // pixels; below, iterations fall onto single pixels
+// Sums over pixels of a Gaussian of sigma/sqrt(2) differ from integrals by 2 exp(-(pi sigma)^2),
+// and second moments by 2 (pi sigma)^2 times that: 1% here.
+constexpr double narrowest_sampled = 0.9;
 constexpr double samples_per_sigma = 1.7; // thin grids keep that: aliasing then is about 1e-3
 constexpr double longest_reach2 = 90;
 constexpr double rounding = 1e-13;
+constexpr double least_seen = 1e-9; // of the integral of w^2
 constexpr double degenerate = 1e-3; // smallest curvature that counts as well determined
 
 // Far from the solution a pass may see fewer pixels: a shorter reach, and a thin grid if the weight
@@ -103,8 +117,9 @@ template <class T> void report_no_start(View<const T> image, AdaptiveMoments &re
 
 template <class T> class Iteration {
   public:
-    Iteration(View<const T> image, const AdaptiveOptions &options, AdaptiveMoments &result)
-        : image_(image), options_(options), result_(result) {}
+    Iteration(const FitTarget<T> &target, const AdaptiveOptions &options, AdaptiveMoments &result)
+        : target_(target), image_(target.image), options_(options), result_(result),
+          allowed_(allowed_steps(options.method)) {}
 
     void run(const Gaussian &start) {
         here_ = start;
@@ -114,6 +129,8 @@ template <class T> class Iteration {
         first_pass_ = result_.passes;
         while (result_.status == WFPSF_OK && !done_)
             pass();
+        set_ellipticity();
+        result_.missing_fraction = target_.missing_fraction(result_.weight, longest_reach2);
         result_.edge_fraction = edge_fraction(result_.weight, image_.nx, image_.ny);
         if (done_ && result_.edge_fraction > 0.5)
             report(result_, WFPSF_ERROR_MOMENTS_FILLS_IMAGE,
@@ -122,9 +139,11 @@ template <class T> class Iteration {
     }
 
   private:
+    const FitTarget<T> &target_;
     View<const T> image_;
     const AdaptiveOptions &options_;
     AdaptiveMoments &result_;
+    Matrix5 allowed_;
 
     Gaussian here_, base_; // the iterate, and the one it was stepped from
     WhitenedStep step_;    // from base_ to here_
@@ -134,21 +153,25 @@ template <class T> class Iteration {
     Plan plan_{0, 0, false};
     double rim_ = 0;       // largest relative rim of all passes
     double stiffness_ = 1; // a Gaussian's curvature over the smallest here
+    double round_e1_ = 0, round_e2_ = 0;
     int first_pass_ = 0, thin_passes_ = 0, shrinks_ = 0;
     bool done_ = false;
 
     Plan next_plan() {
         const double width = std::sqrt(here_.minor_variance());
-        const auto stride = static_cast<int64_t>(width / samples_per_sigma);
-        if (stride > 1 && last_step_ > 3e-3 && thin_passes_ < 6) {
+        const double reach2 = std::max(plan_.final ? plan_.reach2 : 0,
+                                       reach2_for(options_.tolerance / stiffness_, rim_));
+        const auto coarse = static_cast<int64_t>(width / samples_per_sigma);
+        // All but exact on a smooth image: then one pass over all pixels remains.
+        const auto fine = static_cast<int64_t>(width / (2 * samples_per_sigma));
+        const bool far = last_step_ > 0.02;
+        if (thin_passes_ < 6 && (far ? coarse : fine) > 1 && last_step_ > 1e-4) {
             ++thin_passes_;
-            return {24, stride, false};
+            return far ? Plan{24, coarse, false} : Plan{reach2, fine, false};
         }
-        if (last_step_ > 0.02)
+        if (far)
             return {24, 1, false};
-        return {std::max(plan_.final ? plan_.reach2 : 0,
-                         reach2_for(options_.tolerance / stiffness_, rim_)),
-                1, true};
+        return {reach2, 1, true};
     }
 
     void pass() {
@@ -159,12 +182,13 @@ template <class T> class Iteration {
         }
         const Plan plan = next_plan();
         const WeightedSums sums = weighted_sums(image_, here_, plan.reach2, plan.stride);
+        const Merit norm = target_.norm(here_, plan.reach2, plan.stride);
         ++result_.passes;
         result_.pixels += sums.pixels;
-        record(sums);
+        record(sums, norm);
         const bool comparable = plan.stride == plan_.stride && plan.reach2 == plan_.reach2;
         plan_ = plan;
-        if (sums.pixels == 0)
+        if (sums.pixels == 0 || !(norm.value > least_seen * plane_norm(here_).value))
             report(result_, WFPSF_ERROR_MOMENTS_NO_PIXELS,
                    "no pixel within reach of the weight at (%.6g, %.6g)", here_.x, here_.y);
         else if (!all_finite(sums))
@@ -172,13 +196,27 @@ template <class T> class Iteration {
         else if (!(sums.sum[0][0] > 0))
             shrink(WFPSF_ERROR_MOMENTS_FLUX);
         else
-            improve(sums, comparable);
+            improve(sums, norm, comparable);
     }
 
-    void record(const WeightedSums &sums) {
+    // The amplitude of the fit is sum(w I)/Q. Missing pixels count as filled by the fit.
+    void record(const WeightedSums &sums, const Merit &norm) {
+        const double amplitude = sums.sum[0][0] / norm.value;
+        const double plane = plane_norm(here_).value;
         result_.weight = here_;
-        result_.flux = 2 * sums.sum[0][0];
-        result_.rho4 = sums.mean(4, 0) + 2 * sums.mean(2, 2) + sums.mean(0, 4);
+        result_.flux = 2 * plane * amplitude;
+        WeightedSums filled = sums;
+        if (target_.method != MomentsMethod::least_squares && !target_.count.empty()) {
+            const WeightedSums missing =
+                squared_weight_sums(target_.count, here_, plan_.reach2, plan_.stride);
+            for (int j = 0; j <= 4; ++j)
+                for (int k = 0; j + k <= 4; ++k)
+                    filled.sum[j][k] += amplitude * missing.sum[j][k];
+        }
+        result_.rho4 = filled.mean(4, 0) + 2 * filled.mean(2, 2) + filled.mean(0, 4);
+        round_e1_ =
+            (filled.mean(2, 0) - filled.mean(0, 2)) / (filled.mean(2, 0) + filled.mean(0, 2));
+        round_e2_ = 2 * filled.mean(1, 1) / (filled.mean(2, 0) + filled.mean(0, 2));
     }
 
     static bool all_finite(const WeightedSums &sums) {
@@ -207,6 +245,13 @@ template <class T> class Iteration {
                here_.y);
     }
 
+    void set_ellipticity() {
+        const Gaussian &w = result_.weight;
+        const bool round = options_.method == MomentsMethod::round;
+        result_.e1 = round ? round_e1_ : (w.Mxx - w.Myy) / (w.Mxx + w.Myy);
+        result_.e2 = round ? round_e2_ : 2 * w.Mxy / (w.Mxx + w.Myy);
+    }
+
     // Goes back to a quarter of the last step.
     void shrink(wfpsf_status reason) {
         if (last_step_ == infinity || ++shrinks_ > 12) {
@@ -222,8 +267,8 @@ template <class T> class Iteration {
         here_ = base_.moved(step_);
     }
 
-    void improve(const WeightedSums &sums, bool comparable) {
-        const Merit phi = merit(sums, here_);
+    void improve(const WeightedSums &sums, const Merit &norm, bool comparable) {
+        const Merit phi = merit(sums, norm);
         // Far out phi must not fall. Near the solution its changes drown in the truncation error.
         if (comparable && last_step_ > 1e-3 && phi.value < last_value_ - 1e-6) {
             shrink(WFPSF_ERROR_MOMENTS_STALLED);
@@ -234,8 +279,10 @@ template <class T> class Iteration {
         rim_ = std::max(rim_,
                         sums.rim * 2 * std::numbers::pi * std::sqrt(here_.det()) / sums.sum[0][0]);
 
-        const Vector5 gradient = Eigen::Map<const Vector5>(phi.gradient);
-        const Matrix5 curvature = -Eigen::Map<const Matrix5>(&phi.hessian[0][0]);
+        const Vector5 gradient = allowed_ * Eigen::Map<const Vector5>(phi.gradient);
+        const Matrix5 hessian = Eigen::Map<const Matrix5>(&phi.hessian[0][0]);
+        const Matrix5 curvature =
+            -allowed_ * hessian * allowed_ + (Matrix5::Identity() - allowed_) / 2;
         result_.gradient = gradient.norm();
         const Eigen::LLT<Matrix5> factor(curvature);
         const bool newton = factor.info() == Eigen::Success;
@@ -251,7 +298,7 @@ template <class T> class Iteration {
 
         result_.last_step = length;
         if (newton)
-            finish_if_good(gradient, curvature, step, length);
+            finish_if_good(gradient, log(norm), curvature, step, length);
         else if (plan_.final && length < options_.tolerance)
             report(result_, WFPSF_ERROR_MOMENTS_STALLED,
                    "the solution at (%.6g, %.6g) is a saddle point, not a maximum", here_.x,
@@ -268,8 +315,8 @@ template <class T> class Iteration {
 
     // Newton's steps shrink quadratically: after a step d_k the error is kappa d_k^2, with
     // kappa = d_k/d_(k-1)^2 of the last two.
-    void finish_if_good(const Vector5 &gradient, const Matrix5 &curvature, const WhitenedStep &step,
-                        double length) {
+    void finish_if_good(const Vector5 &gradient, const Merit &log_norm, const Matrix5 &curvature,
+                        const WhitenedStep &step, double length) {
         if (!plan_.final || length > longest_step)
             return;
         const double kappa =
@@ -287,9 +334,11 @@ template <class T> class Iteration {
             return; // again with a longer reach, now that rim and stiffness are known
         result_.curvature = smallest;
         result_.error_estimate = remaining + truncation + stiffness_ * rounding;
-        // The step's effect on the weighted flux, to second order: ln S = phi + ln(det M)/4.
+        // The step's effect on the flux, to second order: ln F = phi - ln(Q)/2 + ln(det M)/2 + ...
         const Vector5 change(step.t, step.v, step.htt, step.hs, step.hvv);
-        result_.flux *= std::exp(0.5 * gradient.dot(change) + (step.htt + step.hvv) / 4);
+        const Vector5 norm_gradient = Eigen::Map<const Vector5>(log_norm.gradient);
+        result_.flux *=
+            std::exp(0.5 * (gradient - norm_gradient).dot(change) + (step.htt + step.hvv) / 2);
         result_.weight = here_.moved(step);
         done_ = true;
     }
@@ -323,6 +372,8 @@ void check(const std::optional<Gaussian> &guess, const AdaptiveOptions &options)
     if (!(options.sigma_min > 0 && options.sigma_min <= narrowest_start))
         fail(WFPSF_ERROR_RANGE, "sigma_min = %g: must be above 0 and at most %g", options.sigma_min,
              narrowest_start);
+    if (!std::isfinite(options.background))
+        fail(WFPSF_ERROR_NOT_FINITE, "background = %g: must be finite", options.background);
     if (!guess)
         return;
     if (!std::isfinite(guess->x + guess->y + guess->Mxx + guess->Mxy + guess->Myy))
@@ -350,40 +401,30 @@ double AdaptiveMoments::sigma() const {
 double AdaptiveMoments::sigma_trace() const {
     return std::sqrt(weight.Mxx + weight.Myy);
 }
-double AdaptiveMoments::e1() const {
-    return (weight.Mxx - weight.Myy) / (weight.Mxx + weight.Myy);
-}
-double AdaptiveMoments::e2() const {
-    return 2 * weight.Mxy / (weight.Mxx + weight.Myy);
-}
 double AdaptiveMoments::e() const {
-    return std::hypot(e1(), e2());
+    return std::hypot(e1, e2);
 }
 double AdaptiveMoments::beta() const {
-    return std::atan2(e2(), e1()) / 2;
+    return std::atan2(e2, e1) / 2;
 }
 double AdaptiveMoments::amplitude() const {
     return flux / (2 * std::numbers::pi * std::sqrt(weight.det()));
 }
 
+namespace {
+
 template <class T>
-AdaptiveMoments adaptive_moments(View<const T> image, const std::optional<Gaussian> &guess,
-                                 const AdaptiveOptions &options) {
-    check(guess, options);
+AdaptiveMoments solve(const FitTarget<T> &target, const std::optional<Gaussian> &guess,
+                      const AdaptiveOptions &options) {
     AdaptiveMoments result;
-    if (image.empty()) {
-        report(result, WFPSF_ERROR_MOMENTS_NO_PIXELS, "the image has %lld x %lld pixels",
-               static_cast<long long>(image.nx), static_cast<long long>(image.ny));
-        return result;
-    }
     if (guess)
-        Iteration<T>(image, options, result).run(widened(*guess));
-    if (!guess || result.status != WFPSF_OK) {
-        const std::optional<Gaussian> start = scale_space_start(image);
+        Iteration<T>(target, options, result).run(widened(*guess));
+    if (!guess || (options.restart && result.status != WFPSF_OK)) {
+        const std::optional<Gaussian> start = scale_space_start(target.image);
         if (start)
-            Iteration<T>(image, options, result).run(widened(*start));
+            Iteration<T>(target, options, result).run(widened(*start));
         else
-            report_no_start(image, result);
+            report_no_start(target.image, result);
         if (guess && result.status == WFPSF_OK)
             report(result, WFPSF_WARNING_RESTARTED,
                    "no solution from the guess at (%.6g, %.6g); found one at (%.6g, %.6g)",
@@ -395,15 +436,46 @@ AdaptiveMoments adaptive_moments(View<const T> image, const std::optional<Gaussi
         report(result, WFPSF_WARNING_NEAR_DEGENERATE,
                "curvature = %.3g: the moments are poorly determined below %g", result.curvature,
                degenerate);
+    else if (options.method != MomentsMethod::least_squares &&
+             result.weight.minor_variance() < narrowest_sampled * narrowest_sampled)
+        report(
+            result, WFPSF_WARNING_UNDERSAMPLED,
+            "the minor axis is %.3g pixels: below %g the moments depend on where the pixels fall",
+            std::sqrt(result.weight.minor_variance()), narrowest_sampled);
     else if (result.error_estimate > options.tolerance)
         report(result, WFPSF_WARNING_NOT_CONVERGED, "error_estimate = %.3g: above tolerance = %.3g",
                result.error_estimate, options.tolerance);
     return result;
 }
 
+bool none_seen(View<const float> missing) {
+    for (int64_t y = 0; y < missing.ny; ++y)
+        for (int64_t x = 0; x < missing.nx; ++x)
+            if (missing(x, y) == 0)
+                return false;
+    return !missing.empty();
+}
+
+} // namespace
+
+template <class T>
+AdaptiveMoments adaptive_moments(View<const T> image, const std::optional<Gaussian> &guess,
+                                 const AdaptiveOptions &options, View<const float> missing) {
+    check(guess, options);
+    if (image.empty() || none_seen(missing)) {
+        AdaptiveMoments result;
+        report(result, WFPSF_ERROR_MOMENTS_NO_PIXELS, "the image has %lld x %lld pixels%s",
+               static_cast<long long>(image.nx), static_cast<long long>(image.ny),
+               image.empty() ? "" : ", all of them missing");
+        return result;
+    }
+    return with_target(image, missing, options.background, options.method,
+                       [&](const auto &target) { return solve(target, guess, options); });
+}
+
 template AdaptiveMoments adaptive_moments(View<const float>, const std::optional<Gaussian> &,
-                                          const AdaptiveOptions &);
+                                          const AdaptiveOptions &, View<const float>);
 template AdaptiveMoments adaptive_moments(View<const double>, const std::optional<Gaussian> &,
-                                          const AdaptiveOptions &);
+                                          const AdaptiveOptions &, View<const float>);
 
 } // namespace wfpsf

@@ -25,13 +25,14 @@ struct EncircledEnergy {
 };
 
 struct EncircledRadius {
-    double radius = 0; // pixels
+    double radius = 0;  // pixels
+    double density = 0; // derivative of the energy by the radius, there
     double error_estimate = 0;
     int iterations = 0;
 };
 
 // Throws Error: SIZE_NOT_REACHED if the circle leaves the image (passes its outermost samples),
-// NOT_FINITE on a sample that is not finite, RANGE on bad options.
+// NOT_FINITE if a sample in or near the circle is not finite, RANGE on bad options.
 template <class T>
 EncircledEnergy encircled_energy(View<const T> image, double x, double y, double radius,
                                  const EncircledOptions &options = {});
@@ -41,5 +42,15 @@ EncircledEnergy encircled_energy(View<const T> image, double x, double y, double
 template <class T>
 EncircledRadius encircled_radius(View<const T> image, double x, double y, double fraction,
                                  double total, const EncircledOptions &options = {});
+
+// The mean of the image on the circle: its radial profile. Throws as encircled_energy().
+template <class T>
+double ring_mean(View<const T> image, double x, double y, double radius,
+                 const EncircledOptions &options = {});
+
+// Twice the smallest radius at which that profile falls to half of its centre. Throws as
+// encircled_radius(), MOMENTS_FLUX if the centre is not positive.
+template <class T>
+double profile_fwhm(View<const T> image, double x, double y, const EncircledOptions &options = {});
 
 } // namespace wfpsf

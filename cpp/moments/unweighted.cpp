@@ -2,27 +2,13 @@
 #include "moments/unweighted.hpp"
 
 #include "error/error.hpp"
+#include "moments/compensated_sum.hpp"
 
 #include <cmath>
 
 namespace wfpsf {
 
 namespace {
-
-// Neumaier's sum: what rounding takes off is kept aside and added at the end.
-class CompensatedSum {
-  public:
-    void add(double value) {
-        const double total = sum_ + value;
-        lost_ +=
-            std::abs(sum_) >= std::abs(value) ? (sum_ - total) + value : (value - total) + sum_;
-        sum_ = total;
-    }
-    double value() const { return sum_ + lost_; }
-
-  private:
-    double sum_ = 0, lost_ = 0;
-};
 
 double checked_flux(double flux) {
     if (!std::isfinite(flux))
@@ -74,6 +60,25 @@ template <class T> UnweightedMoments unweighted_moments(View<const T> image) {
                               middle_y + first_y.value() / total);
 }
 
+template <class T> double pixel_sum(View<const T> image) {
+    CompensatedSum total;
+    for (int64_t y = 0; y < image.ny; ++y) {
+        const T *row = image.row(y);
+        double part[8] = {};
+        int64_t x = 0;
+        for (; x + 8 <= image.nx; x += 8)
+            for (int64_t k = 0; k < 8; ++k)
+                part[k] += static_cast<double>(row[(x + k) * image.stride_x]);
+        for (; x < image.nx; ++x)
+            part[0] += static_cast<double>(row[x * image.stride_x]);
+        for (const double sum : part)
+            total.add(sum);
+    }
+    return total.value();
+}
+
+template double pixel_sum(View<const float>);
+template double pixel_sum(View<const double>);
 template UnweightedMoments unweighted_moments(View<const float>);
 template UnweightedMoments unweighted_moments(View<const double>);
 template UnweightedMoments unweighted_moments(View<const float>, double, double);

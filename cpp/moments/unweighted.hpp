@@ -21,4 +21,7 @@ struct UnweightedMoments {
 template <class T> UnweightedMoments unweighted_moments(View<const T> image);
 template <class T> UnweightedMoments unweighted_moments(View<const T> image, double x, double y);
 
+// The sum of all pixels: of every row in eight parts, of the rows compensated.
+template <class T> double pixel_sum(View<const T> image);
+
 } // namespace wfpsf

@@ -8,8 +8,8 @@
 namespace wfpsf {
 
 struct WeightedSums {
-    // sum[j][k] = sum of I w t^j v^k over the pixels visited, j + k <= 4, (t, v) whitened.
-    double sum[5][5] = {};
+    // sum[j][k] = sum of I w t^j v^k over the pixels visited, j + k <= order, (t, v) whitened.
+    double sum[7][7] = {};
     int64_t pixels = 0;
     double rim = 0; // mean |I| where the reach, not the image's border, ends a row
 
@@ -17,11 +17,16 @@ struct WeightedSums {
 };
 
 // Sums over the pixels with rho^2 <= reach2 of every stride-th column and row (from 0), times
-// stride^2. Sums are in double and not finite if a visited pixel is not. Centred coordinates
-// throughout: nothing is lost at large x, y.
+// stride^2, up to the order 2, 4 or 6. Sums are in double and not finite if a visited pixel is not.
+// Centred coordinates throughout: nothing is lost at large x, y.
 template <class T>
 WeightedSums weighted_sums(View<const T> image, const Gaussian &weight, double reach2,
-                           int64_t stride = 1);
+                           int64_t stride = 1, int order = 4);
+
+// The same for sums of w^2: sum[j][k] = sum of w^2 t^j v^k over the pixels with a count of 1.
+template <class T>
+WeightedSums squared_weight_sums(View<const T> count, const Gaussian &weight, double reach2,
+                                 int64_t stride = 1, int order = 4);
 
 // The columns [first, last] of row y within reach; first > last if there are none.
 struct Span {

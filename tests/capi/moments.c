@@ -192,7 +192,302 @@ static void test_null_and_unknown(void) {
     wfpsf_image_destroy(image);
 }
 
+static const int32_t derived[] = {
+    WFPSF_MOMENTS_CENTROID_X,  WFPSF_MOMENTS_CENTROID_Y, WFPSF_MOMENTS_MXX,
+    WFPSF_MOMENTS_MXY,         WFPSF_MOMENTS_MYY,        WFPSF_MOMENTS_SIGMA,
+    WFPSF_MOMENTS_SIGMA_TRACE, WFPSF_MOMENTS_E1,         WFPSF_MOMENTS_E2,
+    WFPSF_MOMENTS_E,           WFPSF_MOMENTS_BETA,       WFPSF_MOMENTS_FLUX};
+enum { derived_count = sizeof derived / sizeof derived[0], side = 41 };
+
+/* One of the measurements, of the image plus t times the change. */
+typedef wfpsf_moments *measurement(const wfpsf_image *image);
+
+static wfpsf_moments *adaptive(const wfpsf_image *image) {
+    wfpsf_options *options = NULL;
+    wfpsf_moments *m = NULL;
+    CHECK_OK(wfpsf_options_create(&options));
+    CHECK_OK(wfpsf_options_set_real(options, WFPSF_OPTION_MOMENTS_TOLERANCE, 1e-12));
+    CHECK_OK(wfpsf_moments_measure(image, options, &m));
+    wfpsf_options_destroy(options);
+    return m;
+}
+
+static wfpsf_moments *unweighted(const wfpsf_image *image) {
+    wfpsf_moments *m = NULL;
+    CHECK_OK(wfpsf_moments_measure_unweighted(image, NAN, NAN, &m));
+    return m;
+}
+
+static wfpsf_moments *about_a_point(const wfpsf_image *image) {
+    wfpsf_moments *m = NULL;
+    CHECK_OK(wfpsf_moments_measure_unweighted(image, 19, 20, &m));
+    return m;
+}
+
+static wfpsf_moments *weighted(const wfpsf_image *image) {
+    wfpsf_moments *m = NULL;
+    CHECK_OK(wfpsf_moments_measure_weighted(image, 19.5, 20.3, 7, 1, 6, &m));
+    return m;
+}
+
+static double value_along(measurement *measured, double t, double u, int32_t key) {
+    double data[side * side], a[side * side], b[side * side];
+    fill_gaussian(data, side, side, 20.3, 18.9, 7, 1, 2.5);
+    fill_gaussian(a, side, side, 22, 20, 6, -1, 5);
+    fill_gaussian(b, side, side, 18, 18, 3, 0, 9);
+    for (int i = 0; i < side * side; ++i)
+        data[i] += t * a[i] + u * b[i];
+    wfpsf_image *image = wrap(data, side, side);
+    wfpsf_moments *m = measured(image);
+    const double value = number(m, key);
+    wfpsf_moments_destroy(m);
+    wfpsf_image_destroy(image);
+    return value;
+}
+
+static double slope(measurement *measured, double h, int32_t key) {
+    return (value_along(measured, h, 0, key) - value_along(measured, -h, 0, key)) / (2 * h);
+}
+
+static double cross(measurement *measured, double h, int32_t key) {
+    return (value_along(measured, h, h, key) - value_along(measured, h, -h, key) -
+            value_along(measured, -h, h, key) + value_along(measured, -h, -h, key)) /
+           (4 * h * h);
+}
+
+/* Two steps of Richardson's extrapolation. */
+static double extrapolated(double (*f)(measurement *, double, int32_t), measurement *measured,
+                           double h, int32_t key) {
+    const double f1 = f(measured, h, key), f2 = f(measured, 2 * h, key),
+                 f4 = f(measured, 4 * h, key);
+    return (16 * (4 * f1 - f2) / 3 - (4 * f2 - f4) / 3) / 15;
+}
+
+static void test_derivatives(measurement *measured) {
+    double data[side * side], a[side * side], b[side * side], influence[side * side];
+    fill_gaussian(data, side, side, 20.3, 18.9, 7, 1, 2.5);
+    fill_gaussian(a, side, side, 22, 20, 6, -1, 5);
+    fill_gaussian(b, side, side, 18, 18, 3, 0, 9);
+    wfpsf_image *image = wrap(data, side, side), *change = wrap(a, side, side),
+                *other = wrap(b, side, side), *out = wrap(influence, side, side);
+    wfpsf_moments *m = measured(image), *first = NULL, *second = NULL;
+    CHECK_OK(wfpsf_moments_differentiate(m, image, change, NULL, &first));
+    CHECK_OK(wfpsf_moments_differentiate(m, image, change, other, &second));
+    for (int i = 0; i < derived_count; ++i) {
+        const int32_t key = derived[i];
+        const double scale = 1 + fabs(number(m, key));
+        CHECK_NEAR(number(first, key), extrapolated(slope, measured, 1e-3, key), 1e-8 * scale);
+        CHECK_NEAR(number(second, key), extrapolated(cross, measured, 2e-3, key), 1e-6 * scale);
+        CHECK_OK(wfpsf_moments_influence(m, image, key, out));
+        double sum = 0;
+        for (int k = 0; k < side * side; ++k)
+            sum += influence[k] * a[k];
+        CHECK_NEAR(number(first, key), sum, 1e-10 * scale);
+    }
+    CHECK(isnan(number(first, WFPSF_MOMENTS_PASSES)));
+    wfpsf_moments *again = STALE(wfpsf_moments);
+    CHECK_FAILS(WFPSF_ERROR_ARGUMENT, "derivatives",
+                wfpsf_moments_differentiate(first, image, change, NULL, &again));
+    CHECK(again == NULL);
+    CHECK_FAILS(WFPSF_ERROR_UNKNOWN_NAME, "key = 140",
+                wfpsf_moments_influence(m, image, WFPSF_MOMENTS_PASSES, out));
+    wfpsf_moments_destroy(m);
+    wfpsf_moments_destroy(first);
+    wfpsf_moments_destroy(second);
+    wfpsf_image *const all[] = {image, change, other, out};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i)
+        wfpsf_image_destroy(all[i]);
+}
+
+static void test_derivatives_refused(void) {
+    double data[side * side], small[9] = {0};
+    float single[side * side];
+    fill_gaussian(data, side, side, 20, 20, 4, 1, 3);
+    wfpsf_image *image = wrap(data, side, side), *other = wrap(small, 3, 3),
+                *wrong = wrap_float(single, side, side);
+    wfpsf_moments *m = adaptive(image), *out = STALE(wfpsf_moments);
+    CHECK_FAILS(WFPSF_ERROR_NULL, "moments",
+                wfpsf_moments_differentiate(NULL, image, image, NULL, &out));
+    CHECK(out == NULL);
+    CHECK_FAILS(WFPSF_ERROR_NULL, "image", wfpsf_moments_differentiate(m, NULL, image, NULL, &out));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "change",
+                wfpsf_moments_differentiate(m, image, NULL, NULL, &out));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "out", wfpsf_moments_differentiate(m, image, image, NULL, NULL));
+    CHECK_FAILS(WFPSF_ERROR_SIZE, "image: has 3 x 3",
+                wfpsf_moments_differentiate(m, other, image, NULL, &out));
+    CHECK_FAILS(WFPSF_ERROR_SIZE, "change: has 3 x 3",
+                wfpsf_moments_differentiate(m, image, other, NULL, &out));
+    CHECK_FAILS(WFPSF_ERROR_SIZE, "second: has 3 x 3",
+                wfpsf_moments_differentiate(m, image, image, other, &out));
+    CHECK_FAILS(WFPSF_ERROR_SIZE, "influence: has 3 x 3",
+                wfpsf_moments_influence(m, image, WFPSF_MOMENTS_E1, other));
+    CHECK_FAILS(WFPSF_ERROR_TYPE, "float64",
+                wfpsf_moments_influence(m, image, WFPSF_MOMENTS_E1, wrong));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "influence",
+                wfpsf_moments_influence(m, image, WFPSF_MOMENTS_E1, NULL));
+    double bad[side * side];
+    fill(bad, side * side, NAN);
+    wfpsf_image *nans = wrap(bad, side, side);
+    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "change",
+                wfpsf_moments_differentiate(m, image, nans, NULL, &out));
+    CHECK(out == NULL);
+    wfpsf_moments_destroy(m);
+    /* nothing to differentiate where there is no solution */
+    fill(data, side * side, 0);
+    CHECK_STATUS(WFPSF_ERROR_MOMENTS_FLUX, wfpsf_moments_measure(image, NULL, &m));
+    CHECK_FAILS(WFPSF_ERROR_ARGUMENT, "-310",
+                wfpsf_moments_differentiate(m, image, image, NULL, &out));
+    wfpsf_moments_destroy(m);
+    wfpsf_image *const all[] = {image, other, wrong, nans};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i)
+        wfpsf_image_destroy(all[i]);
+}
+
+static void test_masked(void) {
+    double data[side * side], mask[side * side], variance[side * side], value = 7;
+    fill_gaussian(data, side, side, 20.3, 18.9, 4, 1, 3);
+    fill(mask, side * side, 0);
+    fill(variance, side * side, 1e-6);
+    for (int i = 0; i < side; ++i) {
+        data[19 * side + i] = i % 2 ? NAN : 1e30;
+        mask[19 * side + i] = i % 2 ? NAN : 2;
+    }
+    wfpsf_image *image = wrap(data, side, side), *missing = wrap(mask, side, side),
+                *noise = wrap(variance, side, side), *small = wrap(data, 3, 3);
+    wfpsf_options *options = NULL;
+    wfpsf_moments *m = NULL;
+    CHECK_OK(wfpsf_options_create(&options));
+    double errors[3];
+    for (int method = 0; method < 2; ++method) {
+        CHECK_OK(wfpsf_options_set_integer(options, WFPSF_OPTION_MOMENTS_METHOD, method));
+        CHECK_OK(wfpsf_moments_measure_masked(image, missing, noise, options, &m));
+        CHECK_NEAR(number(m, WFPSF_MOMENTS_CENTROID_X), 20.3, 1e-8);
+        CHECK_NEAR(number(m, WFPSF_MOMENTS_MXX), 4, 1e-7);
+        CHECK_NEAR(number(m, WFPSF_MOMENTS_AMPLITUDE), 1, 1e-7);
+        CHECK(number(m, WFPSF_MOMENTS_MISSING_FRACTION) > 0.1);
+        CHECK(number(m, WFPSF_MOMENTS_MISSING_FRACTION) < 0.5);
+        CHECK_OK(
+            wfpsf_moments_covariance(m, WFPSF_MOMENTS_SIGMA, WFPSF_MOMENTS_SIGMA, &errors[method]));
+        wfpsf_moments_destroy(m);
+    }
+    CHECK_OK(wfpsf_options_reset(options, WFPSF_OPTION_MOMENTS_METHOD));
+    CHECK_OK(wfpsf_options_set_real(options, WFPSF_OPTION_MOMENTS_VARIANCE, 1e-6));
+    CHECK_OK(wfpsf_moments_measure_masked(image, missing, NULL, options, &m));
+    CHECK_OK(wfpsf_moments_covariance(m, WFPSF_MOMENTS_SIGMA, WFPSF_MOMENTS_SIGMA, &errors[2]));
+    CHECK_NEAR(errors[1] / errors[0], 1, 1e-6);
+    CHECK_NEAR(errors[2] / errors[0], 1, 1e-9);
+    double xy, yx;
+    CHECK_OK(wfpsf_moments_covariance(m, WFPSF_MOMENTS_E1, WFPSF_MOMENTS_FLUX, &xy));
+    CHECK_OK(wfpsf_moments_covariance(m, WFPSF_MOMENTS_FLUX, WFPSF_MOMENTS_E1, &yx));
+    CHECK_NEAR(xy / yx, 1, 1e-12);
+    CHECK_FAILS(WFPSF_ERROR_UNKNOWN_NAME, "key = 140",
+                wfpsf_moments_covariance(m, WFPSF_MOMENTS_E1, WFPSF_MOMENTS_PASSES, &value));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "value",
+                wfpsf_moments_covariance(m, WFPSF_MOMENTS_E1, WFPSF_MOMENTS_E1, NULL));
+    wfpsf_moments_destroy(m);
+    CHECK_OK(wfpsf_moments_measure_masked(image, missing, NULL, NULL, &m));
+    CHECK_FAILS(WFPSF_ERROR_ARGUMENT, "variance",
+                wfpsf_moments_covariance(m, WFPSF_MOMENTS_E1, WFPSF_MOMENTS_E1, &value));
+    wfpsf_moments_destroy(m);
+
+    /* refused: sizes, impossible variances (with a result), nothing seen */
+    m = STALE(wfpsf_moments);
+    CHECK_FAILS(WFPSF_ERROR_SIZE, "missing: has 3 x 3",
+                wfpsf_moments_measure_masked(image, small, NULL, NULL, &m));
+    CHECK(m == NULL);
+    CHECK_FAILS(WFPSF_ERROR_SIZE, "variance: has 3 x 3",
+                wfpsf_moments_measure_masked(image, NULL, small, NULL, &m));
+    variance[5] = -1;
+    CHECK_FAILS(WFPSF_ERROR_RANGE, "(5, 0) = -1",
+                wfpsf_moments_measure_masked(image, missing, noise, NULL, &m));
+    CHECK(m != NULL && wfpsf_moments_status(m) == WFPSF_OK);
+    wfpsf_moments_destroy(m);
+    variance[5] = HUGE_VAL;
+    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "(5, 0) = inf",
+                wfpsf_moments_measure_masked(image, missing, noise, NULL, &m));
+    wfpsf_moments_destroy(m);
+    fill(mask, side * side, 1);
+    CHECK_FAILS(WFPSF_ERROR_MOMENTS_NO_PIXELS, "missing",
+                wfpsf_moments_measure_masked(image, missing, NULL, NULL, &m));
+    CHECK(m != NULL);
+    wfpsf_moments_destroy(m);
+    CHECK_FAILS(WFPSF_ERROR_NULL, "image",
+                wfpsf_moments_measure_masked(NULL, NULL, NULL, NULL, &m));
+    CHECK(m == NULL && value == 7);
+    wfpsf_options_destroy(options);
+    wfpsf_image *const all[] = {image, missing, noise, small};
+    for (size_t i = 0; i < sizeof all / sizeof all[0]; ++i)
+        wfpsf_image_destroy(all[i]);
+}
+
+/* A Gaussian of matrix 4, 1, 3 under a weight W has the moments (M^-1 + W^-1)^-1. */
+static void test_fixed_weight(void) {
+    double data[side * side], sums[15], weight[3] = {4, 1, 3};
+    fill_gaussian(data, side, side, 20, 19, 4, 1, 3);
+    wfpsf_image *image = wrap(data, side, side), *none = wrap(NULL, 0, 0);
+    wfpsf_moments *m = NULL;
+    const double pi = 3.14159265358979323846, flux = pi * sqrt(11);
+    CHECK_OK(wfpsf_moments_measure_weighted(image, 20, 19, 4, 1, 3, &m));
+    CHECK_NEAR(number(m, WFPSF_MOMENTS_CENTROID_X), 20, 1e-12);
+    CHECK_NEAR(number(m, WFPSF_MOMENTS_MXX), 2, 1e-7);
+    CHECK_NEAR(number(m, WFPSF_MOMENTS_MXY), 0.5, 1e-7);
+    CHECK_NEAR(number(m, WFPSF_MOMENTS_MYY), 1.5, 1e-7);
+    CHECK_NEAR(number(m, WFPSF_MOMENTS_FLUX), flux, 1e-6);
+    wfpsf_moments_destroy(m);
+    /* fourth moments of a normal distribution; (j, k) = (4,0), (3,1), (2,2) are sums 10 to 12 */
+    CHECK_OK(wfpsf_moments_sums(image, 20, 19, weight, 15, sums));
+    CHECK_NEAR(sums[0], flux, 1e-6);
+    CHECK_NEAR(sums[6] / flux, 0, 1e-12);
+    CHECK_NEAR(sums[10] / flux, 3 * 2 * 2, 1e-5);
+    CHECK_NEAR(sums[11] / flux, 3 * 2 * 0.5, 1e-5);
+    CHECK_NEAR(sums[12] / flux, 2 * 1.5 + 2 * 0.25, 1e-5);
+    CHECK_OK(wfpsf_moments_sums(image, 20, 19, NULL, 15, sums));
+    CHECK_NEAR(sums[0], 2 * flux, 1e-6);
+    CHECK_NEAR(sums[10] / sums[0], 3 * 4 * 4, 1e-5);
+    CHECK_NEAR(sums[14] / sums[0], 3 * 3 * 3, 1e-5);
+    CHECK_OK(wfpsf_moments_sums(none, 20, 19, NULL, 15, sums));
+    CHECK(sums[0] == 0);
+
+    sums[0] = 7;
+    weight[1] = 9;
+    CHECK_FAILS(WFPSF_ERROR_RANGE, "(4, 9, 3)",
+                wfpsf_moments_sums(image, 20, 19, weight, 15, sums));
+    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "x = nan",
+                wfpsf_moments_sums(image, NAN, 19, NULL, 15, sums));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "image", wfpsf_moments_sums(NULL, 20, 19, NULL, 15, sums));
+    CHECK_FAILS(WFPSF_ERROR_RANGE, "count = 16", wfpsf_moments_sums(image, 20, 19, NULL, 16, sums));
+    CHECK_OK(wfpsf_moments_sums(image, 20, 19, NULL, 0, NULL));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "sums", wfpsf_moments_sums(image, 20, 19, NULL, 15, NULL));
+    m = STALE(wfpsf_moments);
+    CHECK_FAILS(WFPSF_ERROR_MOMENTS_NO_PIXELS, "empty",
+                wfpsf_moments_measure_weighted(none, 20, 19, 4, 1, 3, &m));
+    CHECK(m == NULL);
+    CHECK_FAILS(WFPSF_ERROR_RANGE, "(0, 0, 3)",
+                wfpsf_moments_measure_weighted(image, 20, 19, 0, 0, 3, &m));
+    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "inf",
+                wfpsf_moments_measure_weighted(image, HUGE_VAL, 19, 4, 1, 3, &m));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "image",
+                wfpsf_moments_measure_weighted(NULL, 20, 19, 4, 1, 3, &m));
+    CHECK_FAILS(WFPSF_ERROR_MOMENTS_FLUX, "= 0",
+                wfpsf_moments_measure_weighted(image, 2000, 19, 4, 1, 3, &m));
+    data[20 * side + 20] = NAN;
+    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "nan",
+                wfpsf_moments_measure_weighted(image, 20, 19, 4, 1, 3, &m));
+    weight[1] = 1;
+    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "nan", wfpsf_moments_sums(image, 20, 19, weight, 15, sums));
+    CHECK(sums[0] == 7);
+    wfpsf_image_destroy(image);
+    wfpsf_image_destroy(none);
+}
+
 int main(void) {
+    test_derivatives(adaptive);
+    test_derivatives(unweighted);
+    test_derivatives(about_a_point);
+    test_derivatives(weighted);
+    test_derivatives_refused();
+    test_masked();
+    test_fixed_weight();
     test_gaussians();
     test_unweighted();
     test_failures();

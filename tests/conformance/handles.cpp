@@ -79,6 +79,13 @@ Ellipse measure(const Pixels &pixels, const wfpsf_options *options) {
     return ellipse_of(Moments(handle)); // a failure is told by the result's status
 }
 
+Ellipse measure_masked(const Pixels &pixels, const Pixels &missing, const wfpsf_options *options) {
+    wfpsf_moments *handle = nullptr;
+    wfpsf_moments_measure_masked(pixels.image.get(), missing.image.get(), nullptr, options,
+                                 &handle);
+    return ellipse_of(Moments(handle));
+}
+
 Ellipse measure_unweighted(const Pixels &pixels, double x, double y) {
     wfpsf_moments *handle = nullptr;
     require(wfpsf_moments_measure_unweighted(pixels.image.get(), x, y, &handle));

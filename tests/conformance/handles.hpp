@@ -47,4 +47,5 @@ struct Ellipse {
     double x = 0, y = 0, sigma = 0, e1 = 0, e2 = 0, flux = 0, rho4 = 0, Mxx = 0, Myy = 0, Mxy = 0;
 };
 Ellipse measure(const Pixels &pixels, const wfpsf_options *options = nullptr);
+Ellipse measure_masked(const Pixels &pixels, const Pixels &missing, const wfpsf_options *options);
 Ellipse measure_unweighted(const Pixels &pixels, double x, double y);

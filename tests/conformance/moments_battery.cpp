@@ -23,25 +23,67 @@ double whitened_error(const Ellipse &m, const Row &row) {
     return std::max(centroid, std::sqrt(xx * xx + 2 * xy * xy + yy * yy));
 }
 
+Options guess_of(const Row &row) {
+    Options options = make_options();
+    require(
+        wfpsf_options_set_real(options.get(), WFPSF_OPTION_MOMENTS_GUESS_X, row.number("guess_x")));
+    require(
+        wfpsf_options_set_real(options.get(), WFPSF_OPTION_MOMENTS_GUESS_Y, row.number("guess_y")));
+    require(wfpsf_options_set_real(options.get(), WFPSF_OPTION_MOMENTS_GUESS_SIGMA,
+                                   row.number("guess_sigma")));
+    return options;
+}
+
 TEST(MomentsBattery, Solvable) {
     int compared = 0;
     for (const Row &row : Table("moments_battery/cases.csv")) {
         if (row.text("ref_status") != "OK" || row.has("mask"))
             continue;
         SCOPED_TRACE(row.text("id") + " " + row.text("category") + " " + row.text("name"));
-        const Options options = make_options();
-        require(wfpsf_options_set_real(options.get(), WFPSF_OPTION_MOMENTS_GUESS_X,
-                                       row.number("guess_x")));
-        require(wfpsf_options_set_real(options.get(), WFPSF_OPTION_MOMENTS_GUESS_Y,
-                                       row.number("guess_y")));
-        require(wfpsf_options_set_real(options.get(), WFPSF_OPTION_MOMENTS_GUESS_SIGMA,
-                                       row.number("guess_sigma")));
+        const Options options = guess_of(row);
         const Ellipse m = measure(read_fits("moments_battery/" + row.text("image")), options.get());
         EXPECT_GE(m.status, 0) << wfpsf_status_name(m.status);
         EXPECT_LE(whitened_error(m, row), 1e-8) << wfpsf_status_name(m.status);
         ++compared;
     }
     EXPECT_GE(compared, 100);
+}
+
+// Against the truth, by both ways to solve for what is missing.
+TEST(MomentsBattery, Masked) {
+    int compared = 0;
+    for (const Row &row : Table("moments_battery/cases.csv")) {
+        if (!row.has("mask"))
+            continue;
+        SCOPED_TRACE(row.text("id") + " " + row.text("name"));
+        const std::string file = "moments_battery/" + row.text("image");
+        const Pixels image = read_fits(file), mask = read_fits(file, "BADPIX");
+        const Options options = guess_of(row);
+        for (const int method : {0, 1}) {
+            require(wfpsf_options_set_integer(options.get(), WFPSF_OPTION_MOMENTS_METHOD, method));
+            const Ellipse m = measure_masked(image, mask, options.get());
+            EXPECT_EQ(m.status, WFPSF_OK) << wfpsf_status_name(m.status);
+            EXPECT_LE(whitened_error(m, row), 1e-8) << method;
+        }
+        ++compared;
+    }
+    EXPECT_EQ(compared, 3);
+}
+
+// What has no solution is never called solved where the table's own search found none.
+TEST(MomentsBattery, Unsolvable) {
+    int refused = 0;
+    for (const Row &row : Table("moments_battery/cases.csv")) {
+        const std::string &status = row.text("ref_status");
+        if (!status.starts_with("NO_SOLUTION") && status != "NONFINITE")
+            continue;
+        SCOPED_TRACE(row.text("id") + " " + row.text("category") + " " + row.text("name"));
+        const Ellipse m =
+            measure(read_fits("moments_battery/" + row.text("image")), guess_of(row).get());
+        EXPECT_LT(m.status, 0) << m.sigma << " at " << m.x << " " << m.y;
+        ++refused;
+    }
+    EXPECT_GE(refused, 20);
 }
 
 } // namespace

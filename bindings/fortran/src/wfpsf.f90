@@ -97,7 +97,11 @@ module wfpsf
         procedure :: deinterleave => image_deinterleave
         procedure :: encircled_energy => image_encircled_energy
         procedure :: ee_radius => image_ee_radius
+        procedure :: ee_radius_derivative => image_ee_radius_derivative
         procedure :: fwhm => image_fwhm
+        procedure :: radial_profile => image_radial_profile
+        procedure :: profile_fwhm => image_profile_fwhm
+        procedure :: moment_sums => image_moment_sums
         final :: image_finalize
     end type wfpsf_image
 
@@ -207,9 +211,15 @@ module wfpsf
 
     ! The result of a measurement.
     type, extends(handle) :: wfpsf_moments
+        logical, private :: are_derivatives = .false. ! which no origin moves
     contains
         procedure :: measure => moments_measure
+        procedure :: measure_masked => moments_measure_masked
+        procedure :: measure_weighted => moments_measure_weighted
         procedure :: measure_unweighted => moments_measure_unweighted
+        procedure :: differentiate => moments_differentiate
+        procedure :: influence => moments_influence
+        procedure :: covariance => moments_covariance
         procedure :: destroy => moments_destroy
         procedure :: status => moments_status
         procedure :: get => moments_get
@@ -535,6 +545,8 @@ module wfpsf
     private :: image_write_fits, image_destroy, image_get_shape, image_get_record, image_set_record
     private :: image_copy_from, image_get_pixels_real32, image_get_pixels_real64, image_interleave
     private :: image_deinterleave, image_encircled_energy, image_ee_radius, image_fwhm
+    private :: image_ee_radius_derivative, image_radial_profile, image_profile_fwhm
+    private :: image_moment_sums
     private :: image_finalize
     interface
         ! Zeros that the image owns; pixel_type: wfpsf_float32 or wfpsf_float64; oversampling:
@@ -666,7 +678,7 @@ module wfpsf
         end subroutine image_deinterleave
 
         ! Fraction of the light in the circle about (x, y), pixels of the image.
-        ! Options: size_total_flux, size_bandwidth.
+        ! Options: size_total_flux, size_bandwidth, size_eps.
         module subroutine image_encircled_energy(self, x, y, radius, fraction, error, options, &
             stat, errmsg)
             class(wfpsf_image), intent(in) :: self
@@ -679,7 +691,7 @@ module wfpsf
         end subroutine image_encircled_energy
 
         ! Radius of the circle about (x, y) that holds a fraction of the light; method:
-        ! wfpsf_size_*. Options: size_total_flux, size_bandwidth.
+        ! wfpsf_size_*. Options: size_total_flux, size_bandwidth, size_eps.
         module subroutine image_ee_radius(self, x, y, fraction, method, radius, error, options, &
             stat, errmsg)
             class(wfpsf_image), intent(in) :: self
@@ -691,6 +703,51 @@ module wfpsf
             integer, intent(out), optional :: stat
             character(len=*), intent(inout), optional :: errmsg
         end subroutine image_ee_radius
+
+        ! The derivative of that radius, of the band-limited image, by a change of the image.
+        module subroutine image_ee_radius_derivative(self, change, x, y, fraction, derivative, &
+            options, stat, errmsg)
+            class(wfpsf_image), intent(in) :: self
+            type(wfpsf_image), intent(in) :: change
+            real(real64), intent(in) :: x, y, fraction
+            real(real64), intent(inout) :: derivative
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine image_ee_radius_derivative
+
+        ! Means of the band-limited image on circles about (x, y); profile is as long as radii.
+        ! Options: size_bandwidth, size_eps.
+        module subroutine image_radial_profile(self, x, y, radii, profile, options, stat, errmsg)
+            class(wfpsf_image), intent(in) :: self
+            real(real64), intent(in) :: x, y
+            real(real64), intent(in), contiguous :: radii(:)
+            real(real64), intent(inout), contiguous :: profile(:)
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine image_radial_profile
+
+        ! Full width at half maximum of that profile.
+        module subroutine image_profile_fwhm(self, x, y, fwhm, options, stat, errmsg)
+            class(wfpsf_image), intent(in) :: self
+            real(real64), intent(in) :: x, y
+            real(real64), intent(inout) :: fwhm
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine image_profile_fwhm
+
+        ! Sums of I w dx^j dy^k about (x, y), (j, k) = (0,0), (1,0), (0,1), (2,0), ..., as many as
+        ! sums holds, at most 15. weight: mxx, mxy, myy of a Gaussian.
+        module subroutine image_moment_sums(self, x, y, sums, weight, stat, errmsg)
+            class(wfpsf_image), intent(in) :: self
+            real(real64), intent(in) :: x, y
+            real(real64), intent(inout), contiguous :: sums(:)
+            real(real64), intent(in), optional :: weight(3)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine image_moment_sums
 
         module subroutine image_fwhm(self, x, y, fwhm, stat, errmsg)
             class(wfpsf_image), intent(in) :: self
@@ -1408,7 +1465,8 @@ module wfpsf
 
     ! Moments.
     private :: moments_measure, moments_measure_unweighted, moments_destroy, moments_status
-    private :: moments_get, moments_finalize
+    private :: moments_get, moments_finalize, moments_measure_masked, moments_measure_weighted
+    private :: moments_differentiate, moments_influence, moments_covariance
     interface
         ! The best-fit elliptical Gaussian. A measurement that fails leaves its last iterate here.
         ! Options: moments_*.
@@ -1419,6 +1477,56 @@ module wfpsf
             integer, intent(out), optional :: stat
             character(len=*), intent(inout), optional :: errmsg
         end subroutine moments_measure
+
+        ! The same; missing is not 0 where a pixel is missing, variance that of each pixel's noise.
+        module subroutine moments_measure_masked(self, image, missing, variance, options, stat, &
+            errmsg)
+            class(wfpsf_moments), intent(inout) :: self
+            type(wfpsf_image), intent(in) :: image
+            type(wfpsf_image), intent(in), optional :: missing, variance
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine moments_measure_masked
+
+        ! Under a Gaussian weight about (x, y) that stays as it is.
+        module subroutine moments_measure_weighted(self, image, x, y, mxx, mxy, myy, stat, errmsg)
+            class(wfpsf_moments), intent(inout) :: self
+            type(wfpsf_image), intent(in) :: image
+            real(real64), intent(in) :: x, y, mxx, mxy, myy
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine moments_measure_weighted
+
+        ! Becomes the derivatives of moments, measured on image, by a change of it; with second, the
+        ! mixed second ones.
+        module subroutine moments_differentiate(self, moments, image, change, second, stat, errmsg)
+            class(wfpsf_moments), intent(inout) :: self
+            type(wfpsf_moments), intent(in) :: moments
+            type(wfpsf_image), intent(in) :: image, change
+            type(wfpsf_image), intent(in), optional :: second
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine moments_differentiate
+
+        ! The derivative of one number by every pixel of the image that was measured.
+        module subroutine moments_influence(self, image, key, influence, stat, errmsg)
+            class(wfpsf_moments), intent(in) :: self
+            type(wfpsf_image), intent(in) :: image
+            integer, intent(in) :: key
+            type(wfpsf_image), intent(inout) :: influence
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine moments_influence
+
+        ! Covariance of two numbers, if a variance was given.
+        module subroutine moments_covariance(self, key_a, key_b, value, stat, errmsg)
+            class(wfpsf_moments), intent(in) :: self
+            integer, intent(in) :: key_a, key_b
+            real(real64), intent(inout) :: value
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine moments_covariance
 
         ! Over the whole image about the point (x, y); both absent: the centroid.
         module subroutine moments_measure_unweighted(self, image, x, y, stat, errmsg)

@@ -21,6 +21,7 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_warning_not_certified = 110
     integer(c_int32_t), parameter :: wfpsf_warning_restarted = 120
     integer(c_int32_t), parameter :: wfpsf_warning_near_degenerate = 130
+    integer(c_int32_t), parameter :: wfpsf_warning_undersampled = 140
     integer(c_int32_t), parameter :: wfpsf_error_null = -10
     integer(c_int32_t), parameter :: wfpsf_error_argument = -20
     integer(c_int32_t), parameter :: wfpsf_error_range = -30
@@ -74,8 +75,13 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_option_moments_guess_x = 320
     integer(c_int32_t), parameter :: wfpsf_option_moments_guess_y = 330
     integer(c_int32_t), parameter :: wfpsf_option_moments_guess_sigma = 340
+    integer(c_int32_t), parameter :: wfpsf_option_moments_method = 350
+    integer(c_int32_t), parameter :: wfpsf_option_moments_background = 360
+    integer(c_int32_t), parameter :: wfpsf_option_moments_variance = 370
+    integer(c_int32_t), parameter :: wfpsf_option_moments_restart = 380
     integer(c_int32_t), parameter :: wfpsf_option_size_total_flux = 400
     integer(c_int32_t), parameter :: wfpsf_option_size_bandwidth = 410
+    integer(c_int32_t), parameter :: wfpsf_option_size_eps = 420
     integer(c_int32_t), parameter :: wfpsf_option_fits_overwrite = 500
     integer(c_int32_t), parameter :: wfpsf_option_threads = 600
     integer(c_int32_t), parameter :: wfpsf_option_memory_limit = 610
@@ -214,6 +220,10 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_moments_residual = 160
     integer(c_int32_t), parameter :: wfpsf_moments_curvature = 170
     integer(c_int32_t), parameter :: wfpsf_moments_edge_fraction = 180
+    integer(c_int32_t), parameter :: wfpsf_moments_missing_fraction = 190
+    integer(c_int32_t), parameter :: wfpsf_moments_amplitude = 200
+    integer(c_int32_t), parameter :: wfpsf_moments_last_step = 210
+    integer(c_int32_t), parameter :: wfpsf_moments_pixels = 220
 
     ! size.h
     integer(c_int32_t), parameter :: wfpsf_size_bandlimited = 1
@@ -1453,6 +1463,45 @@ module wfpsf_c
             integer(c_int32_t) :: outcome
         end function wfpsf_moments_measure
 
+        function wfpsf_moments_measure_masked(image, missing, variance, options, out) &
+            bind(c, name="wfpsf_moments_measure_masked") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: image
+            type(c_ptr), value :: missing
+            type(c_ptr), value :: variance
+            type(c_ptr), value :: options
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_moments_measure_masked
+
+        function wfpsf_moments_measure_weighted(image, x, y, Mxx, Mxy, Myy, out) &
+            bind(c, name="wfpsf_moments_measure_weighted") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: image
+            real(c_double), value :: x
+            real(c_double), value :: y
+            real(c_double), value :: Mxx
+            real(c_double), value :: Mxy
+            real(c_double), value :: Myy
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_moments_measure_weighted
+
+        function wfpsf_moments_sums(image, x, y, weight, count, sums) &
+            bind(c, name="wfpsf_moments_sums") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: image
+            real(c_double), value :: x
+            real(c_double), value :: y
+            real(c_double), intent(in), optional :: weight(*)
+            integer(c_int64_t), value :: count
+            real(c_double), intent(inout), optional :: sums(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_moments_sums
+
         function wfpsf_moments_measure_unweighted(image, x, y, out) &
             bind(c, name="wfpsf_moments_measure_unweighted") result(outcome)
             import :: c_double, c_int32_t, c_ptr
@@ -1486,6 +1535,40 @@ module wfpsf_c
             real(c_double), intent(inout), optional :: value
             integer(c_int32_t) :: outcome
         end function wfpsf_moments_get
+
+        function wfpsf_moments_covariance(moments, key_a, key_b, value) &
+            bind(c, name="wfpsf_moments_covariance") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: moments
+            integer(c_int32_t), value :: key_a
+            integer(c_int32_t), value :: key_b
+            real(c_double), intent(inout), optional :: value
+            integer(c_int32_t) :: outcome
+        end function wfpsf_moments_covariance
+
+        function wfpsf_moments_differentiate(moments, image, change, second, out) &
+            bind(c, name="wfpsf_moments_differentiate") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: moments
+            type(c_ptr), value :: image
+            type(c_ptr), value :: change
+            type(c_ptr), value :: second
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_moments_differentiate
+
+        function wfpsf_moments_influence(moments, image, key, influence) &
+            bind(c, name="wfpsf_moments_influence") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: moments
+            type(c_ptr), value :: image
+            integer(c_int32_t), value :: key
+            type(c_ptr), value :: influence
+            integer(c_int32_t) :: outcome
+        end function wfpsf_moments_influence
 
         ! size.h
         function wfpsf_size_encircled_energy(image, x, y, radius, options, fraction, error) &
@@ -1526,6 +1609,46 @@ module wfpsf_c
             real(c_double), intent(inout), optional :: fwhm
             integer(c_int32_t) :: outcome
         end function wfpsf_size_fwhm
+
+        function wfpsf_size_ee_radius_derivative(image, change, x, y, fraction, options, &
+            derivative) bind(c, name="wfpsf_size_ee_radius_derivative") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: image
+            type(c_ptr), value :: change
+            real(c_double), value :: x
+            real(c_double), value :: y
+            real(c_double), value :: fraction
+            type(c_ptr), value :: options
+            real(c_double), intent(inout), optional :: derivative
+            integer(c_int32_t) :: outcome
+        end function wfpsf_size_ee_radius_derivative
+
+        function wfpsf_size_profile(image, x, y, count, radii, options, profile) &
+            bind(c, name="wfpsf_size_profile") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: image
+            real(c_double), value :: x
+            real(c_double), value :: y
+            integer(c_int64_t), value :: count
+            real(c_double), intent(in), optional :: radii(*)
+            type(c_ptr), value :: options
+            real(c_double), intent(inout), optional :: profile(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_size_profile
+
+        function wfpsf_size_profile_fwhm(image, x, y, options, fwhm) &
+            bind(c, name="wfpsf_size_profile_fwhm") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: image
+            real(c_double), value :: x
+            real(c_double), value :: y
+            type(c_ptr), value :: options
+            real(c_double), intent(inout), optional :: fwhm
+            integer(c_int32_t) :: outcome
+        end function wfpsf_size_profile_fwhm
     end interface
 
 end module wfpsf_c

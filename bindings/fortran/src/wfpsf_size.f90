@@ -1,5 +1,6 @@
 ! SPDX-License-Identifier: GPL-3.0-or-later
 submodule(wfpsf) wfpsf_size_procedures
+    use, intrinsic :: iso_c_binding, only: c_int64_t
     use wfpsf_c
     use wfpsf_common, only: report
     implicit none
@@ -15,6 +16,31 @@ contains
         call report(wfpsf_size_ee_radius(self%pointer, x - 1, y - 1, fraction, method, &
             pointer_of(options), radius, error), stat, errmsg)
     end procedure image_ee_radius
+
+    module procedure image_ee_radius_derivative
+        call report(wfpsf_size_ee_radius_derivative(self%pointer, change%pointer, x - 1, y - 1, &
+            fraction, pointer_of(options), derivative), stat, errmsg)
+    end procedure image_ee_radius_derivative
+
+    module procedure image_radial_profile
+        integer(c_int64_t) :: n
+
+        ! A negative count makes the library refuse arrays of different sizes.
+        n = size(radii, kind=c_int64_t)
+        if (size(profile, kind=c_int64_t) /= n) n = -1
+        call report(wfpsf_size_profile(self%pointer, x - 1, y - 1, n, radii, pointer_of(options), &
+            profile), stat, errmsg)
+    end procedure image_radial_profile
+
+    module procedure image_profile_fwhm
+        call report(wfpsf_size_profile_fwhm(self%pointer, x - 1, y - 1, pointer_of(options), fwhm), &
+            stat, errmsg)
+    end procedure image_profile_fwhm
+
+    module procedure image_moment_sums
+        call report(wfpsf_moments_sums(self%pointer, x - 1, y - 1, weight, &
+            size(sums, kind=c_int64_t), sums), stat, errmsg)
+    end procedure image_moment_sums
 
     module procedure image_fwhm
         call report(wfpsf_size_fwhm(self%pointer, x - 1, y - 1, fwhm), stat, errmsg)

@@ -9,6 +9,7 @@ program test_positions
     real(real64), parameter :: eps = 1e-6_real64
 
     call of_a_gaussian()
+    call of_a_masked_gaussian()
     call of_options()
     call of_a_star()
     call of_a_mask()
@@ -32,6 +33,60 @@ contains
             end do
         end do
     end subroutine gaussian
+
+    ! A star with a row that is missing, its noise, and how it answers to more light on one side.
+    subroutine of_a_masked_gaussian()
+        real(real64), parameter :: x0 = 40.25_real64, y0 = 33.5_real64
+        real(real64), target :: array(80, 70), mask(80, 70), change_array(80, 70), slopes(80, 70)
+        type(wfpsf_image) :: image, missing, change, influence
+        type(wfpsf_moments) :: moments, derivatives
+        type(wfpsf_options) :: options
+        real(real64) :: x, y, slope, curvature, variance, sums(6), profile(2), width
+        integer :: i, stat
+
+        call gaussian(x0, y0, array)
+        do i = 1, 80
+            change_array(i, :) = array(i, :) * (i - x0)
+        end do
+        mask = 0
+        mask(:, 34) = 1
+        array(:, 34) = 1e30_real64
+        call image%wrap(array, 1)
+        call missing%wrap(mask, 1)
+        call change%wrap(change_array, 1)
+        call influence%wrap(slopes, 1)
+        call options%create()
+        call options%set(wfpsf_option_moments_variance, 1e-8_real64)
+        call moments%measure_masked(image, missing, options=options)
+        call moments%get(wfpsf_moments_centroid_x, x)
+        call moments%get(wfpsf_moments_centroid_y, y)
+        call expect(abs(x - x0) < 1e-7_real64 .and. abs(y - y0) < 1e-7_real64, "masked centroid")
+        call moments%covariance(wfpsf_moments_centroid_x, wfpsf_moments_centroid_x, variance)
+        call expect(variance > 0, "variance of the centroid")
+        ! I (1 + t (x - x0)) is to first order in t the Gaussian moved by sigma^2 t.
+        call derivatives%differentiate(moments, image, change)
+        call derivatives%get(wfpsf_moments_centroid_x, slope)
+        call expect(abs(slope - 16) < 1e-6_real64, "derivative of the centroid")
+        call derivatives%differentiate(moments, image, change, change)
+        call derivatives%get(wfpsf_moments_centroid_x, curvature)
+        call expect(abs(curvature) < 1e-5_real64, "second derivative of the centroid")
+        call moments%influence(image, wfpsf_moments_centroid_x, influence)
+        call expect(abs(sum(slopes * change_array) - 16) < 1e-6_real64, "influence function")
+        call derivatives%differentiate(derivatives, image, change, stat=stat)
+        call expect(stat == wfpsf_error_argument, "derivative of a derivative")
+
+        call gaussian(x0, y0, array)
+        call image%moment_sums(x0, y0, sums)
+        call expect(abs(sums(4) - 16) < 1e-6_real64, "second moment")
+        call image%moment_sums(x0, y0, sums, weight=[16.0_real64, 0.0_real64, 16.0_real64])
+        call expect(abs(sums(1) - 0.5_real64) < 1e-9_real64, "weighted flux")
+        call image%radial_profile(x0, y0, [0.0_real64, 4.0_real64], profile)
+        call expect(abs(profile(2) / profile(1) - exp(-0.5_real64)) < 1e-9_real64, "profile")
+        call image%profile_fwhm(x0, y0, width)
+        call expect(abs(width - 8 * sqrt(2 * log(2.0_real64))) < 1e-8_real64, "its FWHM")
+        call image%ee_radius_derivative(image, x0, y0, 0.5_real64, slope)
+        call expect(abs(slope) < 1e-9_real64, "more of the same light moves no radius")
+    end subroutine of_a_masked_gaussian
 
     subroutine of_a_gaussian()
         real(real64), parameter :: x0 = 40.25_real64, y0 = 33.5_real64
@@ -59,6 +114,12 @@ contains
         call moments%measure_unweighted(image, x0 + 1, y0)
         call moments%get(wfpsf_moments_mxx, sigma)
         call expect(abs(sigma - 17) < 1e-6_real64, "unweighted moments about a point")
+
+        call moments%measure_weighted(image, x0, y0, 16.0_real64, 0.0_real64, 16.0_real64)
+        call moments%get(wfpsf_moments_centroid_x, x)
+        call moments%get(wfpsf_moments_mxx, sigma)
+        call expect(abs(x - x0) < 1e-9_real64, "weighted centroid")
+        call expect(abs(sigma - 8) < 1e-9_real64, "moment under a fixed weight")
 
         ! 1 - exp(-r^2 / (2 sigma^2)) = 1/2
         call image%ee_radius(x0, y0, 0.5_real64, wfpsf_size_bandlimited, radius, error)

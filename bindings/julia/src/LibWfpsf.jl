@@ -37,6 +37,7 @@ const WFPSF_WARNING_NOT_CONVERGED = Int32(100)
 const WFPSF_WARNING_NOT_CERTIFIED = Int32(110)
 const WFPSF_WARNING_RESTARTED = Int32(120)
 const WFPSF_WARNING_NEAR_DEGENERATE = Int32(130)
+const WFPSF_WARNING_UNDERSAMPLED = Int32(140)
 const WFPSF_ERROR_NULL = Int32(-10)
 const WFPSF_ERROR_ARGUMENT = Int32(-20)
 const WFPSF_ERROR_RANGE = Int32(-30)
@@ -108,8 +109,13 @@ const WFPSF_OPTION_MOMENTS_MAX_PASSES = Int32(310)
 const WFPSF_OPTION_MOMENTS_GUESS_X = Int32(320)
 const WFPSF_OPTION_MOMENTS_GUESS_Y = Int32(330)
 const WFPSF_OPTION_MOMENTS_GUESS_SIGMA = Int32(340)
+const WFPSF_OPTION_MOMENTS_METHOD = Int32(350)
+const WFPSF_OPTION_MOMENTS_BACKGROUND = Int32(360)
+const WFPSF_OPTION_MOMENTS_VARIANCE = Int32(370)
+const WFPSF_OPTION_MOMENTS_RESTART = Int32(380)
 const WFPSF_OPTION_SIZE_TOTAL_FLUX = Int32(400)
 const WFPSF_OPTION_SIZE_BANDWIDTH = Int32(410)
+const WFPSF_OPTION_SIZE_EPS = Int32(420)
 const WFPSF_OPTION_FITS_OVERWRITE = Int32(500)
 const WFPSF_OPTION_THREADS = Int32(600)
 const WFPSF_OPTION_MEMORY_LIMIT = Int32(610)
@@ -953,11 +959,36 @@ const WFPSF_MOMENTS_ERROR_ESTIMATE = Int32(150)
 const WFPSF_MOMENTS_RESIDUAL = Int32(160)
 const WFPSF_MOMENTS_CURVATURE = Int32(170)
 const WFPSF_MOMENTS_EDGE_FRACTION = Int32(180)
+const WFPSF_MOMENTS_MISSING_FRACTION = Int32(190)
+const WFPSF_MOMENTS_AMPLITUDE = Int32(200)
+const WFPSF_MOMENTS_LAST_STEP = Int32(210)
+const WFPSF_MOMENTS_PIXELS = Int32(220)
 
 const wfpsf_moments_measure_pointer = Ref(C_NULL)
 function wfpsf_moments_measure(image, options, out)
     return ccall(wfpsf_moments_measure_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
         image, options, out)
+end
+
+const wfpsf_moments_measure_masked_pointer = Ref(C_NULL)
+function wfpsf_moments_measure_masked(image, missing, variance, options, out)
+    return ccall(wfpsf_moments_measure_masked_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Ptr{Cvoid},
+        Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        image, missing, variance, options, out)
+end
+
+const wfpsf_moments_measure_weighted_pointer = Ref(C_NULL)
+function wfpsf_moments_measure_weighted(image, x, y, Mxx, Mxy, Myy, out)
+    return ccall(wfpsf_moments_measure_weighted_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64,
+        Float64, Float64, Float64, Ptr{Ptr{Cvoid}}),
+        image, x, y, Mxx, Mxy, Myy, out)
+end
+
+const wfpsf_moments_sums_pointer = Ref(C_NULL)
+function wfpsf_moments_sums(image, x, y, weight, count, sums)
+    return ccall(wfpsf_moments_sums_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64, Ptr{Float64},
+        Int64, Ptr{Float64}),
+        image, x, y, weight, count, sums)
 end
 
 const wfpsf_moments_measure_unweighted_pointer = Ref(C_NULL)
@@ -985,6 +1016,27 @@ function wfpsf_moments_get(moments, key, value)
         moments, key, value)
 end
 
+const wfpsf_moments_covariance_pointer = Ref(C_NULL)
+function wfpsf_moments_covariance(moments, key_a, key_b, value)
+    return ccall(wfpsf_moments_covariance_pointer[], Int32, (Ptr{Cvoid}, Int32, Int32,
+        Ptr{Float64}),
+        moments, key_a, key_b, value)
+end
+
+const wfpsf_moments_differentiate_pointer = Ref(C_NULL)
+function wfpsf_moments_differentiate(moments, image, change, second, out)
+    return ccall(wfpsf_moments_differentiate_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Ptr{Cvoid},
+        Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        moments, image, change, second, out)
+end
+
+const wfpsf_moments_influence_pointer = Ref(C_NULL)
+function wfpsf_moments_influence(moments, image, key, influence)
+    return ccall(wfpsf_moments_influence_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int32,
+        Ptr{Cvoid}),
+        moments, image, key, influence)
+end
+
 # size.h
 const WFPSF_SIZE_BANDLIMITED = Int32(1)
 const WFPSF_SIZE_PIXEL_SUM = Int32(2)
@@ -1008,6 +1060,27 @@ const wfpsf_size_fwhm_pointer = Ref(C_NULL)
 function wfpsf_size_fwhm(image, x, y, fwhm)
     return ccall(wfpsf_size_fwhm_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64, Ptr{Float64}),
         image, x, y, fwhm)
+end
+
+const wfpsf_size_ee_radius_derivative_pointer = Ref(C_NULL)
+function wfpsf_size_ee_radius_derivative(image, change, x, y, fraction, options, derivative)
+    return ccall(wfpsf_size_ee_radius_derivative_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Float64,
+        Float64, Float64, Ptr{Cvoid}, Ptr{Float64}),
+        image, change, x, y, fraction, options, derivative)
+end
+
+const wfpsf_size_profile_pointer = Ref(C_NULL)
+function wfpsf_size_profile(image, x, y, count, radii, options, profile)
+    return ccall(wfpsf_size_profile_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64, Int64,
+        Ptr{Float64}, Ptr{Cvoid}, Ptr{Float64}),
+        image, x, y, count, radii, options, profile)
+end
+
+const wfpsf_size_profile_fwhm_pointer = Ref(C_NULL)
+function wfpsf_size_profile_fwhm(image, x, y, options, fwhm)
+    return ccall(wfpsf_size_profile_fwhm_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64,
+        Ptr{Cvoid}, Ptr{Float64}),
+        image, x, y, options, fwhm)
 end
 
 const pointers = [
@@ -1124,13 +1197,22 @@ const pointers = [
     :wfpsf_sky_level => wfpsf_sky_level_pointer,
     :wfpsf_sky_background => wfpsf_sky_background_pointer,
     :wfpsf_moments_measure => wfpsf_moments_measure_pointer,
+    :wfpsf_moments_measure_masked => wfpsf_moments_measure_masked_pointer,
+    :wfpsf_moments_measure_weighted => wfpsf_moments_measure_weighted_pointer,
+    :wfpsf_moments_sums => wfpsf_moments_sums_pointer,
     :wfpsf_moments_measure_unweighted => wfpsf_moments_measure_unweighted_pointer,
     :wfpsf_moments_destroy => wfpsf_moments_destroy_pointer,
     :wfpsf_moments_status => wfpsf_moments_status_pointer,
     :wfpsf_moments_get => wfpsf_moments_get_pointer,
+    :wfpsf_moments_covariance => wfpsf_moments_covariance_pointer,
+    :wfpsf_moments_differentiate => wfpsf_moments_differentiate_pointer,
+    :wfpsf_moments_influence => wfpsf_moments_influence_pointer,
     :wfpsf_size_encircled_energy => wfpsf_size_encircled_energy_pointer,
     :wfpsf_size_ee_radius => wfpsf_size_ee_radius_pointer,
     :wfpsf_size_fwhm => wfpsf_size_fwhm_pointer,
+    :wfpsf_size_ee_radius_derivative => wfpsf_size_ee_radius_derivative_pointer,
+    :wfpsf_size_profile => wfpsf_size_profile_pointer,
+    :wfpsf_size_profile_fwhm => wfpsf_size_profile_fwhm_pointer,
 ]
 
 """

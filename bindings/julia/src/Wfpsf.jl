@@ -39,8 +39,9 @@ export WfpsfError, options,
     covariance,
     VaryingIPC, weakest,
     Chain, add!, steps, apply_chain!, add_noise!, sky_level, sky_background,
-    Moments, adaptive_moments, unweighted_moments,
-    encircled_energy, ee_radius, fwhm
+    Moments, adaptive_moments, unweighted_moments, weighted_moments, moment_sums,
+    moments_covariance, moments_derivative, moments_influence,
+    encircled_energy, ee_radius, ee_radius_derivative, radial_profile, profile_fwhm, fwhm
 
 include("LibWfpsf.jl")
 using .LibWfpsf

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 
 const SIZE_METHODS = constants_of("WFPSF_SIZE_")
-const SIZE_OPTIONS = (:size_total_flux, :size_bandwidth)
+const SIZE_OPTIONS = (:size_total_flux, :size_bandwidth, :size_eps)
 
 """
     encircled_energy(image, x, y, radius; options...)
@@ -10,8 +10,9 @@ const SIZE_OPTIONS = (:size_total_flux, :size_bandwidth)
 image, and an estimate of its error. Lengths are in pixels of the image, the centre of the first
 pixel being (1, 1). The circle must lie inside the image.
 
-Options: `size_total_flux` (what counts as 100%; by default the sum of all pixels) and
-`size_bandwidth` (highest frequency in the image, cycles per pixel of the image).
+Options: `size_total_flux` (what counts as 100%; by default the sum of all pixels),
+`size_bandwidth` (highest frequency in the image, cycles per pixel of the image) and `size_eps` (the
+error asked for).
 """
 function encircled_energy(image::Image, x::Real, y::Real, radius::Real; keywords...)
     fraction, error = Ref{Float64}(), Ref{Float64}()
@@ -53,5 +54,49 @@ pixels of the image, the centre of the first pixel being (1, 1).
 function fwhm(image::Image, x::Real, y::Real)
     width = Ref{Float64}()
     check(LibWfpsf.wfpsf_size_fwhm(image, x - 1, y - 1, width))
+    return width[]
+end
+
+"""
+    ee_radius_derivative(image, change, x, y, fraction = 0.5; options...)
+
+Derivative of [`ee_radius`](@ref), of the band-limited image, as `image + t * change` departs from
+t = 0. Options as for [`encircled_energy`](@ref).
+"""
+function ee_radius_derivative(image::Image, change::Image, x::Real, y::Real, fraction::Real = 0.5;
+                              keywords...)
+    derivative = Ref{Float64}()
+    with_options(SIZE_OPTIONS, keywords) do options
+        check(LibWfpsf.wfpsf_size_ee_radius_derivative(image, change, x - 1, y - 1, fraction,
+                                                       options, derivative))
+    end
+    return derivative[]
+end
+
+"""
+    radial_profile(image, x, y, radii; options...)
+
+Means of the band-limited image on circles about (x, y). Options: `size_bandwidth`, `size_eps`.
+"""
+function radial_profile(image::Image, x::Real, y::Real, radii; keywords...)
+    given = collect(Float64, radii)
+    profile = similar(given)
+    with_options(SIZE_OPTIONS, keywords) do options
+        check(LibWfpsf.wfpsf_size_profile(image, x - 1, y - 1, length(given), given, options,
+                                          profile))
+    end
+    return profile
+end
+
+"""
+    profile_fwhm(image, x, y; options...)
+
+Full width at half maximum of the [`radial_profile`](@ref) about (x, y).
+"""
+function profile_fwhm(image::Image, x::Real, y::Real; keywords...)
+    width = Ref{Float64}()
+    with_options(SIZE_OPTIONS, keywords) do options
+        check(LibWfpsf.wfpsf_size_profile_fwhm(image, x - 1, y - 1, options, width))
+    end
     return width[]
 end

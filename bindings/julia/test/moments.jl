@@ -42,3 +42,38 @@ end
     @test adaptive_moments(image; strict = false, once...).status ==
           LibWfpsf.WFPSF_WARNING_NOT_CONVERGED
 end
+
+@testset "missing pixels, noise and derivatives" begin
+    star = gaussian(Float64, 60, 64; shape...)
+    holes, spoiled = zeros(60, 64), copy(star)
+    holes[30:32, 27] .= 1
+    spoiled[30:32, 27] .= NaN
+    options = (missing = Image(holes), moments_tolerance = 1e-11)
+    m = adaptive_moments(Image(spoiled); options...)
+    @test [m.centroid_x, m.mxx, m.flux] ≈ [31.3, 20, 1] atol = 1e-6
+    @test m.missing_fraction > 0
+
+    # I (1 + t (x - x0)) is to first order in t the Gaussian moved by mxx t, mxy t.
+    tilt = star .* ((1:60) .- 31.3)
+    slopes = moments_derivative(Image(spoiled), Image(tilt); options...)
+    @test [slopes.centroid_x, slopes.centroid_y, slopes.sigma] ≈ [20, 3, 0] atol = 1e-6
+    @test isnan(slopes.passes)
+    second = moments_derivative(Image(spoiled), Image(tilt), Image(tilt); options...)
+    @test second.centroid_x ≈ 0 atol = 1e-4
+    influence = moments_influence(Image(spoiled), :centroid_x; options...)
+    @test sum(influence .* tilt) ≈ 20 atol = 1e-6
+
+    flat = moments_covariance(image, (:centroid_x, :e1); moments_variance = 1e-8)
+    mapped = moments_covariance(image, (:centroid_x, :e1);
+                                variance = Image(fill(1e-8, 60, 64)))
+    @test flat ≈ mapped
+    @test flat[1, 2] ≈ flat[2, 1] atol = 1e-15
+    @test status_of(() -> moments_covariance(image, (:e1,))) == LibWfpsf.WFPSF_ERROR_ARGUMENT
+end
+
+@testset "fixed weights" begin
+    m = weighted_moments(image, 31.3, 27.6, 20, 3, 16)
+    @test [m.mxx, m.mxy, m.myy] ≈ [10, 1.5, 8] atol = 1e-6
+    @test moment_sums(image, 31.3, 27.6)[4] ≈ 20 atol = 1e-5
+    @test moment_sums(image, 31.3, 27.6; weight = (20, 3, 16))[1] ≈ 1 / 2 atol = 1e-8
+end

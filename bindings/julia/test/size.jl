@@ -21,3 +21,8 @@ end
 @test status_of(() -> ee_radius(image, 35.4, 37.2, 1.5)) < 0
 
 @test fwhm(image, 35.4, 37.2) ≈ sigma * sqrt(8log(2)) atol = 0.3
+
+@test profile_fwhm(image, 35.4, 37.2) ≈ sigma * sqrt(8log(2)) atol = 1e-6
+profile = radial_profile(image, 35.4, 37.2, [0, 5])
+@test profile[2] / profile[1] ≈ exp(-25 / (2 * sigma^2)) atol = 1e-8
+@test ee_radius_derivative(image, image, 35.4, 37.2; size_eps = 1e-9) ≈ 0 atol = 1e-8

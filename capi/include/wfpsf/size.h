@@ -31,7 +31,7 @@ enum {
  *
  * Given:    x, y     centre
  *           radius   >= 0; the circle must lie inside the image
- *           options  SIZE_TOTAL_FLUX, SIZE_BANDWIDTH
+ *           options  SIZE_TOTAL_FLUX, SIZE_BANDWIDTH, SIZE_EPS
  * Returned: fraction
  *           error    estimate of its error; may be NULL
  * Status:   ERROR_NULL, ERROR_RANGE, ERROR_NOT_FINITE, ERROR_MOMENTS_FLUX, ERROR_SIZE_NOT_REACHED
@@ -46,7 +46,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_size_encircled_energy(const wfpsf_image *image, 
  * Given:    x, y      centre
  *           fraction  in (0, 1)
  *           method    WFPSF_SIZE_*
- *           options   SIZE_TOTAL_FLUX, SIZE_BANDWIDTH
+ *           options   SIZE_TOTAL_FLUX, SIZE_BANDWIDTH, SIZE_EPS
  * Returned: radius
  *           error     estimate of its error; may be NULL; NaN for the pixel methods
  * Status:   as for wfpsf_size_encircled_energy(), ERROR_ARGUMENT; ERROR_RANGE also for the fraction
@@ -65,6 +65,50 @@ WFPSF_EXPORT wfpsf_status wfpsf_size_ee_radius(const wfpsf_image *image, double 
  */
 WFPSF_EXPORT wfpsf_status wfpsf_size_fwhm(const wfpsf_image *image, double x, double y,
                                           double *fwhm);
+
+/**
+ * Derivative of wfpsf_size_ee_radius() (of the band-limited image) by a change of the image,
+ * exactly: of I + t change at t = 0, about a centre that stays. Without SIZE_TOTAL_FLUX the total
+ * changes too.
+ *
+ * Given:    change      image of the same size
+ *           x, y        centre
+ *           fraction    in (0, 1)
+ *           options     SIZE_TOTAL_FLUX, SIZE_BANDWIDTH, SIZE_EPS
+ * Returned: derivative  pixels
+ * Status:   as for wfpsf_size_ee_radius(), ERROR_SIZE
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_size_ee_radius_derivative(const wfpsf_image *image,
+                                                          const wfpsf_image *change, double x,
+                                                          double y, double fraction,
+                                                          const wfpsf_options *options,
+                                                          double *derivative);
+
+/**
+ * Radial profile: means of the band-limited image on circles.
+ *
+ * Given:    x, y     centre
+ *           count    of radii, >= 0
+ *           radii    pixels, >= 0; the circles must lie inside the image
+ *           options  SIZE_BANDWIDTH, SIZE_EPS
+ * Returned: profile  a mean for every radius
+ * Status:   ERROR_NULL, ERROR_SIZE, ERROR_RANGE, ERROR_NOT_FINITE, ERROR_SIZE_NOT_REACHED
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_size_profile(const wfpsf_image *image, double x, double y,
+                                             int64_t count, const double *radii,
+                                             const wfpsf_options *options, double *profile);
+
+/**
+ * Full width at half maximum of that profile: twice the smallest radius at which it falls to half
+ * of its value at the centre.
+ *
+ * Given:    x, y     centre, meant to be the peak
+ *           options  SIZE_BANDWIDTH, SIZE_EPS
+ * Returned: fwhm
+ * Status:   ERROR_NULL, ERROR_NOT_FINITE, ERROR_MOMENTS_FLUX, ERROR_SIZE_NOT_REACHED
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_size_profile_fwhm(const wfpsf_image *image, double x, double y,
+                                                  const wfpsf_options *options, double *fwhm);
 
 #ifdef __cplusplus
 }

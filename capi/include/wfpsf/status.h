@@ -29,6 +29,8 @@ typedef int32_t wfpsf_status;
     X(WARNING_NOT_CERTIFIED, 110, "the error estimate exceeds the tolerance that was asked for")   \
     X(WARNING_RESTARTED, 120, "solved, but from another start than the one given")                 \
     X(WARNING_NEAR_DEGENERATE, 130, "solved, but the solution is poorly determined")               \
+    X(WARNING_UNDERSAMPLED, 140,                                                                   \
+      "solved, but the object is so small that its pixels' places count")                          \
     X(ERROR_NULL, -10, "a required pointer is NULL")                                               \
     X(ERROR_ARGUMENT, -20, "an argument has a value that is not one of those allowed")             \
     X(ERROR_RANGE, -30, "an argument lies outside its allowed range")                              \

@@ -130,12 +130,12 @@ TEST(Adaptive, FlippedStridedAndFloatViewsSeeTheSameObject) {
     const AdaptiveMoments f = adaptive_moments(flipped);
     EXPECT_NEAR(f.weight.x, static_cast<double>(nx - 1) - m.weight.x, 1e-8);
     EXPECT_NEAR(f.weight.y, static_cast<double>(ny - 1) - m.weight.y, 1e-8);
-    EXPECT_NEAR(f.e2(), m.e2(), 1e-8);
+    EXPECT_NEAR(f.e2, m.e2, 1e-8);
 
     const View<const double> turned{plain.data, ny, nx, nx, 1};
     const AdaptiveMoments t = adaptive_moments(turned);
     EXPECT_NEAR(t.weight.x, m.weight.y, 1e-8);
-    EXPECT_NEAR(t.e1(), -m.e1(), 1e-8);
+    EXPECT_NEAR(t.e1, -m.e1, 1e-8);
 
     std::vector<float> wide(static_cast<size_t>(3 * nx * ny), 1e9f);
     const View<float> every_third{wide.data(), nx, ny, 3, 3 * nx};

@@ -28,9 +28,9 @@ long double merit_value(const Plane<double> &image, const Gaussian &g) {
             const long double r2 = (g.Myy * dx * dx - 2 * g.Mxy * dx * dy + g.Mxx * dy * dy) / det;
             sum += image(x, y) * std::exp(-r2 / 2);
         }
-    return std::log(sum) - std::log(static_cast<long double>(g.Mxx) * g.Myy -
-                                    static_cast<long double>(g.Mxy) * g.Mxy) /
-                               4;
+    const long double det =
+        static_cast<long double>(g.Mxx) * g.Myy - static_cast<long double>(g.Mxy) * g.Mxy;
+    return std::log(sum) - std::log(std::numbers::pi_v<long double> * std::sqrt(det)) / 2;
 }
 
 WhitenedStep along(int i, double length) {

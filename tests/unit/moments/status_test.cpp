@@ -107,6 +107,23 @@ TEST(AdaptiveStatus, ObjectsSmallerThanAPixelAreRefused) {
     }
 }
 
+// Down to 0.9 pixels the integral of w^2 stands for its sum to a per cent; below, a warning says
+// that it does not.
+TEST(AdaptiveStatus, SmallObjectsThatAreSolvedCarryAWarning) {
+    for (int phase = 0; phase < 16; ++phase) {
+        const double x = 16 + 0.25 * (phase % 4), y = 16 + 0.25 * (phase / 4);
+        const Gaussian fine = gaussian_of(x, y, 0.97, 0.05, 0);
+        const AdaptiveMoments m = adaptive_moments(view_of(gaussian_image(33, 33, fine)));
+        EXPECT_EQ(m.status, WFPSF_OK) << m.line;
+        EXPECT_LE(whitened_distance(fine, m.weight), 2e-2);
+        const Gaussian coarse = gaussian_of(x, y, 0.75, 0.05, 0);
+        const wfpsf_status status = status_of(gaussian_image(33, 33, coarse));
+        EXPECT_TRUE(status == WFPSF_WARNING_UNDERSAMPLED || status < 0) << status;
+    }
+    EXPECT_EQ(status_of(gaussian_image(33, 33, gaussian_of(16.5, 16.5, 0.75, 0, 0))),
+              WFPSF_WARNING_UNDERSAMPLED);
+}
+
 TEST(AdaptiveStatus, AFrameFillsTheImage) {
     // The light lies along the border: the best weight reaches far beyond it.
     Plane<double> image(9, 9);
@@ -155,13 +172,73 @@ TEST(AdaptiveStatus, NoiseAlwaysGetsAnHonestStatus) {
     }
 }
 
+// A cross of two bars. The round weight on it is a maximum over sizes, but over shapes only if the
+// bars' axes are in a ratio below 3 + sqrt(8): else either bar alone is the better object.
+Plane<double> cross(double ratio) {
+    Plane<double> image = gaussian_image(241, 241, {120, 120, 9 * ratio * ratio, 0, 9});
+    add_gaussian(image.view(), {120, 120, 9, 0, 9 * ratio * ratio}, 1);
+    return image;
+}
+const Gaussian on_cross{120, 120, 50, 0, 50};
+
 TEST(AdaptiveStatus, ASaddlePointIsNoSolution) {
-    // Between two far stars: the iteration may start on the saddle but must not end there.
+    const AdaptiveMoments m = adaptive_moments(view_of(cross(9)), on_cross, {.restart = false});
+    EXPECT_EQ(m.status, WFPSF_ERROR_MOMENTS_STALLED) << m.line;
+}
+
+TEST(AdaptiveStatus, NearASaddlePointTheSolutionIsDegenerate) {
+    const AdaptiveMoments m = adaptive_moments(view_of(cross(3 + std::sqrt(8.0) - 0.01)), on_cross);
+    EXPECT_EQ(m.status, WFPSF_WARNING_NEAR_DEGENERATE) << m.line;
+    EXPECT_GT(m.curvature, 0);
+    EXPECT_LT(m.curvature, 1e-3);
+    EXPECT_EQ(adaptive_moments(view_of(cross(4)), on_cross).status, WFPSF_OK);
+}
+
+TEST(AdaptiveStatus, BetweenTwoStarsAnAnswerIsAMaximum) {
     Plane<double> image = gaussian_image(81, 61, gaussian_of(25, 30, 3, 0, 0));
     add_gaussian(image.view(), gaussian_of(55, 30, 3, 0, 0), 1);
     const AdaptiveMoments m = adaptive_moments(view_of(image), Gaussian{40, 30, 9, 0, 9});
     EXPECT_GE(m.status, 0) << m.line;
     EXPECT_GT(m.curvature, 0);
+}
+
+// The fit to the wing of a star beyond the border has its centre there.
+TEST(AdaptiveStatus, AStarOutsideIsSaidToBe) {
+    const Plane<double> image = gaussian_image(40, 40, gaussian_of(-3, 20, 3, 0, 0));
+    const AdaptiveMoments m =
+        adaptive_moments(view_of(image), Gaussian{1, 20, 9, 0, 9},
+                         {.method = MomentsMethod::least_squares, .restart = false});
+    EXPECT_EQ(m.status, WFPSF_ERROR_MOMENTS_OUTSIDE) << m.line;
+}
+
+// Failures of 500 noisy stars, from a good guess.
+TEST(AdaptiveStatus, NoisyStarsAreFound) {
+    struct Case {
+        double signal_to_noise;
+        int failures_allowed;
+    };
+    for (const Case &c : {Case{5, 15}, Case{7, 5}, Case{10, 0}}) {
+        std::mt19937 random(20160828);
+        std::normal_distribution<double> normal;
+        int failures = 0;
+        for (int trial = 0; trial < 500; ++trial) {
+            const Gaussian star =
+                gaussian_of(20 + normal(random) / 4, 20 + normal(random) / 4, 2.5, 0.1, 0.05);
+            // S/N of the flux under the star's own shape: sqrt(sum I^2)/noise.
+            const double flux =
+                c.signal_to_noise * 2 * std::sqrt(std::numbers::pi * std::sqrt(star.det()));
+            Plane<double> image = gaussian_image(41, 41, star, flux);
+            for (int64_t y = 0; y < 41; ++y)
+                for (int64_t x = 0; x < 41; ++x)
+                    image(x, y) += normal(random);
+            const AdaptiveMoments m =
+                adaptive_moments(view_of(image), Gaussian{20, 20, 6.25, 0, 6.25});
+            failures += m.status < 0 || m.status == WFPSF_WARNING_NOT_CONVERGED;
+        }
+        EXPECT_LE(failures, c.failures_allowed) << "S/N " << c.signal_to_noise;
+        RecordProperty("failures_at_" + std::to_string(static_cast<int>(c.signal_to_noise)),
+                       failures);
+    }
 }
 
 } // namespace

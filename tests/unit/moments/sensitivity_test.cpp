@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Analytic derivatives against finite differences of whole measurements, covariances against noise.
+#include "error/error.hpp"
+#include "gaussian_image.hpp"
+#include "moments/sensitivity.hpp"
+
+#include <algorithm>
+#include <gtest/gtest.h>
+#include <random>
+#include <vector>
+
+namespace wfpsf {
+namespace {
+
+constexpr int64_t nx = 60, ny = 56;
+
+Plane<double> star() {
+    Plane<double> image = gaussian_image(nx, ny, gaussian_of(29.3, 27.6, 3, 0.25, -0.2), 100);
+    add_gaussian(image.view(), gaussian_of(31.1, 26.2, 5, -0.1, 0.3), 40);
+    add_gaussian(image.view(), gaussian_of(26.5, 31.0, 2, 0, 0.1), -6);
+    return image;
+}
+
+Plane<double> change(int kind) {
+    Plane<double> image(nx, ny);
+    for (int64_t y = 0; y < ny; ++y)
+        for (int64_t x = 0; x < nx; ++x) {
+            const double u = static_cast<double>(x) - 28, v = static_cast<double>(y) - 29;
+            image(x, y) = kind == 0 ? 0.4 * std::exp(-(u * u + 0.3 * u * v + 2 * v * v) / 30) * u
+                                    : 0.3 * std::exp(-(u * u + v * v) / 60) * (1 - 0.2 * v);
+        }
+    return image;
+}
+
+std::array<double, 11> numbers(const AdaptiveMoments &m) {
+    const Gaussian &w = m.weight;
+    MomentSet<double> p{w.x, w.y, w.Mxx, w.Mxy, w.Myy, m.flux};
+    set_matrix(p, std::sqrt(w.det()), m.e1, m.e2);
+    const Shape<double> s = shape_of(p);
+    return {p.x, p.y, p.Mxx, p.Mxy, p.Myy, p.flux, s.sigma, s.sigma_trace, s.e1, s.e2, s.beta};
+}
+
+std::array<HyperDual, 11> numbers(const MomentSet<HyperDual> &p) {
+    const Shape<HyperDual> s = shape_of(p);
+    return {p.x, p.y, p.Mxx, p.Mxy, p.Myy, p.flux, s.sigma, s.sigma_trace, s.e1, s.e2, s.beta};
+}
+
+struct Setting {
+    const char *name;
+    MomentsMethod method;
+    bool masked;
+};
+
+Plane<float> mask_of(bool masked) {
+    Plane<float> missing(masked ? nx : 0, masked ? ny : 0);
+    if (masked)
+        for (int64_t i = 0; i < 5; ++i)
+            missing(29 + i, 24 + i) = missing(26, 26 + i) = 1;
+    return missing;
+}
+
+class Derivatives : public testing::TestWithParam<Setting> {};
+
+TEST_P(Derivatives, AgreeWithFiniteDifferences) {
+    const Plane<double> image = star(), A = change(0), B = change(1);
+    const Plane<float> missing = mask_of(GetParam().masked);
+    const AdaptiveOptions options{
+        .tolerance = 1e-12, .method = GetParam().method, .background = 0.01};
+    const Gaussian guess{29, 27, 9, 0, 9};
+    const auto measured = [&](double a, double b) {
+        Plane<double> sum(nx, ny);
+        for (int64_t y = 0; y < ny; ++y)
+            for (int64_t x = 0; x < nx; ++x)
+                sum(x, y) = image(x, y) + a * A(x, y) + b * B(x, y);
+        const AdaptiveMoments m = adaptive_moments(view_of(sum), guess, options, missing.view());
+        EXPECT_EQ(m.status, WFPSF_OK) << m.line;
+        return m;
+    };
+    const AdaptiveMoments m = measured(0, 0);
+    const Sensitivity sensitivity(view_of(image), m, options, missing.view(), true);
+    const auto got = numbers(
+        sensitivity.along(sensitivity.sums_of(view_of(A)), sensitivity.sums_of(view_of(B))));
+    // Richardson: two steps extrapolated once for the second derivative, three steps for the first.
+    const auto first = [&](double h, bool along_b, size_t i) {
+        return (numbers(measured(along_b ? 0 : h, along_b ? h : 0))[i] -
+                numbers(measured(along_b ? 0 : -h, along_b ? -h : 0))[i]) /
+               (2 * h);
+    };
+    const auto extrapolated = [](double a, double b, double c) {
+        const double ab = (4 * a - b) / 3, bc = (4 * b - c) / 3;
+        return (16 * ab - bc) / 15;
+    };
+    const auto mixed = [&](double h, size_t i) {
+        return (numbers(measured(h, h))[i] - numbers(measured(h, -h))[i] -
+                numbers(measured(-h, h))[i] + numbers(measured(-h, -h))[i]) /
+               (4 * h * h);
+    };
+    const auto values = numbers(m);
+    for (size_t i = 0; i < got.size(); ++i) {
+        const double scale = 1 + std::abs(values[i]), h = 0.02;
+        EXPECT_NEAR(got[i].value, values[i], 1e-9 * scale) << i;
+        EXPECT_NEAR(
+            got[i].da,
+            extrapolated(first(h / 4, false, i), first(h / 2, false, i), first(h, false, i)),
+            1e-8 * scale)
+            << i;
+        EXPECT_NEAR(got[i].db,
+                    extrapolated(first(h / 4, true, i), first(h / 2, true, i), first(h, true, i)),
+                    1e-8 * scale)
+            << i;
+        EXPECT_NEAR(got[i].dab, extrapolated(mixed(h / 2, i), mixed(h, i), mixed(2 * h, i)),
+                    1e-7 * scale)
+            << i;
+    }
+}
+
+TEST_P(Derivatives, AreSumsOverTheInfluenceFunction) {
+    const Plane<double> image = star(), A = change(0);
+    const Plane<float> missing = mask_of(GetParam().masked);
+    const AdaptiveOptions options{.tolerance = 1e-12, .method = GetParam().method};
+    const AdaptiveMoments m =
+        adaptive_moments(view_of(image), Gaussian{29, 27, 9, 0, 9}, options, missing.view());
+    const Sensitivity sensitivity(view_of(image), m, options, missing.view());
+    const auto sums = sensitivity.sums_of(view_of(A));
+    const auto got = numbers(sensitivity.along(sums, sums));
+    for (size_t i = 0; i < got.size(); ++i) {
+        std::array<double, 6> coefficients{};
+        for (int k = 0; k < 6; ++k)
+            coefficients[static_cast<size_t>(k)] = numbers(sensitivity.by_sum(k))[i].da;
+        Plane<double> influence(nx, ny);
+        influence_image(m.weight, coefficients, missing.view(), influence.view());
+        double sum = 0;
+        for (int64_t y = 0; y < ny; ++y)
+            for (int64_t x = 0; x < nx; ++x)
+                sum += influence(x, y) * A(x, y);
+        EXPECT_NEAR(sum, got[i].da, 1e-11 * (1 + std::abs(got[i].da))) << i;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Methods, Derivatives,
+    testing::Values(Setting{"adaptive", MomentsMethod::adaptive, false},
+                    Setting{"adaptive_masked", MomentsMethod::adaptive, true},
+                    Setting{"least_squares", MomentsMethod::least_squares, false},
+                    Setting{"least_squares_masked", MomentsMethod::least_squares, true},
+                    Setting{"round", MomentsMethod::round, false},
+                    Setting{"round_masked", MomentsMethod::round, true}),
+    [](const auto &setting) { return std::string(setting.param.name); });
+
+// The predicted standard deviations against those of noisy measurements.
+TEST(Covariance, AgreesWithNoise) {
+    for (const double signal_to_noise : {200.0, 50.0, 10.0}) {
+        const Gaussian star = gaussian_of(16.3, 15.8, 2.4, 0.2, 0.1);
+        const double flux =
+            signal_to_noise * 2 * std::sqrt(std::numbers::pi * std::sqrt(star.det()));
+        const Plane<double> clean = gaussian_image(33, 33, star, flux);
+        Plane<double> variance(33, 33);
+        for (int64_t y = 0; y < 33; ++y)
+            for (int64_t x = 0; x < 33; ++x)
+                variance(x, y) = 0.6 + 0.025 * static_cast<double>(x);
+        const AdaptiveMoments m = adaptive_moments(view_of(clean), star);
+        ASSERT_EQ(m.status, WFPSF_OK);
+        const Sensitivity sensitivity(view_of(clean), m, {});
+        const auto noise = sensitivity.noise(view_of(variance));
+        std::array<std::array<double, 6>, 11> slopes{};
+        for (size_t k = 0; k < 6; ++k) {
+            const auto by = numbers(sensitivity.by_sum(static_cast<int>(k)));
+            for (size_t i = 0; i < slopes.size(); ++i)
+                slopes[i][k] = by[i].da;
+        }
+        std::mt19937 random(7);
+        std::normal_distribution<double> normal;
+        std::array<std::vector<double>, 11> values;
+        const int trials = 3000;
+        for (int trial = 0; trial < trials; ++trial) {
+            Plane<double> image(33, 33);
+            for (int64_t y = 0; y < 33; ++y)
+                for (int64_t x = 0; x < 33; ++x)
+                    image(x, y) = clean(x, y) + std::sqrt(variance(x, y)) * normal(random);
+            const AdaptiveMoments n = adaptive_moments(view_of(image), star, {.tolerance = 1e-6});
+            if (n.status != WFPSF_OK)
+                continue;
+            const auto found = numbers(n);
+            for (size_t i = 0; i < found.size(); ++i)
+                values[i].push_back(found[i]);
+        }
+        EXPECT_GE(values[0].size(), static_cast<size_t>(trials - 3));
+        for (size_t i = 0; i < slopes.size(); ++i) {
+            double predicted = 0;
+            for (size_t a = 0; a < 6; ++a)
+                for (size_t b = 0; b < 6; ++b)
+                    predicted += slopes[i][a] * noise[a][b] * slopes[i][b];
+            // Half the width of the middle 68.27%: at S/N 10 the tails of M are not normal.
+            std::sort(values[i].begin(), values[i].end());
+            const auto at = [&](double share) {
+                return values[i]
+                             [static_cast<size_t>(share * static_cast<double>(values[i].size()))];
+            };
+            const double ratio = (at(0.84134) - at(0.15866)) / 2 / std::sqrt(predicted);
+            EXPECT_NEAR(ratio, 1, signal_to_noise >= 50 ? 0.05 : 0.2)
+                << "S/N " << signal_to_noise << ", quantity " << i;
+        }
+    }
+}
+
+TEST(Covariance, RefusesImpossibleVariances) {
+    const Plane<double> image = star();
+    const AdaptiveMoments m = adaptive_moments(view_of(image));
+    const Sensitivity sensitivity(view_of(image), m, {});
+    const auto status = [&](double value) {
+        try {
+            sensitivity.noise(View<const double>{&value, nx, ny, 0, 0});
+        } catch (const Error &error) {
+            return error.status();
+        }
+        return static_cast<wfpsf_status>(WFPSF_OK);
+    };
+    EXPECT_EQ(status(1), WFPSF_OK);
+    EXPECT_EQ(status(-1), WFPSF_ERROR_RANGE);
+    EXPECT_EQ(status(std::nan("")), WFPSF_ERROR_NOT_FINITE);
+}
+
+} // namespace
+} // namespace wfpsf
