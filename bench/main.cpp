@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// bench [FILE]: runs every case, prints speed beside error as a table, and writes the same as JSON
-// to FILE (default bench.json). Never fails on a time.
+// bench [FILE [PART]]: runs every case whose name holds PART, prints speed beside error as a table,
+// and writes the same as JSON to FILE (default bench.json). Never fails on a time.
 #include "harness.hpp"
 
 #include <algorithm>
@@ -94,6 +94,9 @@ int main(int argc, char **argv) {
     for (auto more : {wide_psf_cases(), ipc_cases(), moments_cases()})
         cases.insert(cases.end(), more.begin(), more.end());
 
+    if (argc > 2)
+        std::erase_if(cases,
+                      [&](const Case &c) { return c.name.find(argv[2]) == std::string::npos; });
     std::ofstream json(argc > 1 ? argv[1] : "bench.json");
     json << "{\"machine\": \"" << machine() << "\", \"version\": \"" << wfpsf_version()
          << "\", \"cases\": [";

@@ -3,9 +3,10 @@
 // data[y * stride_y + x * stride_x]; its centre is at the integers (x, y); strides may be negative.
 #pragma once
 
+#include "image/memory.hpp"
+
 #include <cstddef>
 #include <cstdint>
-#include <new>
 #include <type_traits>
 #include <vector>
 
@@ -24,24 +25,15 @@ template <class T> struct View {
     }
 };
 
-// Memory for wide vector instructions, which are slow where they straddle two lines of the cache.
-inline constexpr size_t cache_line = 64;
-template <class T> struct AlignedAllocator {
-    using value_type = T;
-    AlignedAllocator() = default;
-    template <class U> AlignedAllocator(const AlignedAllocator<U> &) {}
-    T *allocate(size_t n) {
-        return static_cast<T *>(::operator new(n * sizeof(T), std::align_val_t(cache_line)));
-    }
-    void deallocate(T *memory, size_t) { ::operator delete(memory, std::align_val_t(cache_line)); }
-    bool operator==(const AlignedAllocator &) const { return true; }
-};
-
 // Pixels with an owner, x fastest; contiguous unless every row is asked to begin a cache line.
 template <class T> class Plane {
   public:
     Plane() = default;
-    Plane(int64_t nx, int64_t ny) : Plane(nx, ny, nx) {}
+    Plane(int64_t nx, int64_t ny)
+        : nx_(nx), ny_(ny), stride_(nx),
+          pixels_(static_cast<size_t>(nx) * static_cast<size_t>(ny), T()) {}
+    // Pixels hold no value before they are given one.
+    static Plane unset(int64_t nx, int64_t ny) { return Plane(nx, ny, nx); }
     static Plane with_aligned_rows(int64_t nx, int64_t ny) {
         constexpr auto line = static_cast<int64_t>(cache_line / sizeof(T));
         return Plane(nx, ny, (nx + line - 1) / line * line);

@@ -205,7 +205,7 @@ Type1Transform::Type1Transform(Band a, Band b, int64_t K, double eps)
     : K_(K), width_(width_for(eps)), x_(a, fine_cells(K, width_), width_), y_(b, x_.n, width_),
       correction_(kernel_correction(width_, K, x_.n)),
       stride_((x_.used + batch - 1) / batch * batch),
-      cells_(static_cast<size_t>(stride_ * y_.used + batch)) {}
+      cells_(static_cast<size_t>(stride_ * y_.used + batch), Complex(0)) {}
 
 Type1Transform::Memory Type1Transform::memory(Band a, Band b, int64_t K, double eps) {
     const int width = width_for(eps);
@@ -222,11 +222,11 @@ void Type1Transform::add(std::span<const double> a, std::span<const double> b,
 }
 
 // Modes first..last along y of every column of cells, divided by the kernel's transform.
-std::vector<Complex> Type1Transform::transform_columns(int64_t first, int64_t last) const {
+Type1Transform::Cells Type1Transform::transform_columns(int64_t first, int64_t last) const {
     const int64_t n = y_.n;
     const BackwardFft fft(n, batch);
-    std::vector<Complex> half(static_cast<size_t>((last - first + 1) * stride_));
-    std::vector<Complex> period(static_cast<size_t>(n * batch));
+    Cells half(static_cast<size_t>((last - first + 1) * stride_));
+    Cells period(static_cast<size_t>(n * batch));
     for (int64_t x = 0; x < stride_; x += batch) {
         std::fill(period.begin(), period.end(), Complex(0));
         in_period(y_.first, y_.used, n, [&](int64_t cell, int64_t at, int64_t length) {
@@ -249,7 +249,7 @@ std::vector<Complex> Type1Transform::transform_columns(int64_t first, int64_t la
 }
 
 void Type1Transform::rows(int64_t first, int64_t last, const RowSink &row) const {
-    const std::vector<Complex> half = transform_columns(first, last);
+    const Cells half = transform_columns(first, last);
     const int64_t n = x_.n;
     const BackwardFft fft(n);
     std::vector<Complex> period(static_cast<size_t>(n)), modes(static_cast<size_t>(2 * K_ + 1));

@@ -4,6 +4,8 @@
 // diffraction by Barnett 2021, J. Astron. Telesc. Instrum. Syst. 7, 021211).
 #pragma once
 
+#include "image/memory.hpp"
+
 #include <complex>
 #include <cstdint>
 #include <functional>
@@ -43,20 +45,22 @@ class Type1Transform {
     void rows(int64_t first, int64_t last, const RowSink &row) const;
 
   private:
+    using Cells = std::vector<std::complex<double>, AlignedAllocator<std::complex<double>>>;
+
     // One axis of the fine grid.
     struct Axis {
         int64_t n;           // cells in a period
         int64_t first, used; // cells that the sources may touch
         Axis(Band band, int64_t cells, int width);
     };
-    std::vector<std::complex<double>> transform_columns(int64_t first, int64_t last) const;
+    Cells transform_columns(int64_t first, int64_t last) const;
 
     int64_t K_;
     int width_; // of the spreading kernel, fine grid cells
     Axis x_, y_;
     std::vector<double> correction_; // one over the kernel's transform at modes 0..K
     int64_t stride_;                 // of a row of cells
-    std::vector<std::complex<double>> cells_;
+    Cells cells_;
 };
 
 } // namespace wfpsf

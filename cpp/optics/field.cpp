@@ -195,6 +195,7 @@ Attempt attempt(const ImageMaker &maker, const WavelengthRule &rule,
 // aberrated wavefront): once more is the rule, several times for the hardest ones.
 std::vector<Field> make_fields(const Optics &optics, std::span<const Light> lights,
                                const PsfSettings &settings, double radius, const Manners &manners) {
+    const KeptMemory kept;
     const auto colours = [&lights](double path) {
         std::vector<Spectrum> spectra;
         for (const Light &light : lights)

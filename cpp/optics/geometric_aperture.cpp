@@ -95,7 +95,7 @@ class Transform {
 
     // |A|^2 in rows first..first+count-1 of the grid.
     Plane<double> intensity(int64_t first, int64_t count) const {
-        Plane<double> out(2 * bands_.modes + 1, count);
+        auto out = Plane<double>::unset(2 * bands_.modes + 1, count);
         const int64_t origin = first - bands_.modes;
         nufft_.rows(origin, origin + count - 1,
                     [&](int64_t jy, std::span<const Complex> amplitude) {

@@ -114,6 +114,7 @@ double add_large_stamp(const Optics &optics, const Light &light, const PsfSettin
                        double faintest_peak, const Star &star, const StampSize &size, View<T> image,
                        const Manners &manners) {
     const Plan plan(optics, light, settings, faintest_peak, size);
+    const KeptMemory kept;
     manners.require_memory(plan.memory(1), "a stamp that large, a row at a time,");
     const int64_t height = plan.rows_within(manners.memory_limit);
     const ImageMaker &maker = plan.maker();

@@ -83,6 +83,7 @@ VaryingPsf::VaryingPsf(OpticsAt optics, bool varies, Light light, const PsfSetti
       plain_(std::move(make_fields(
           optics_((region.x0 + region.x1) / 2, (region.y0 + region.y1) / 2), {&light_, 1},
           exact_settings(settings, varies), settings.radius, manners)[0])) {
+    const KeptMemory kept;
     exact_psfs_ = 1;
     error_ = plain_.error;
     if (!varies) {
