@@ -32,7 +32,7 @@ template <class T> class Plane {
     Plane(int64_t nx, int64_t ny)
         : nx_(nx), ny_(ny), stride_(nx),
           pixels_(static_cast<size_t>(nx) * static_cast<size_t>(ny), T()) {}
-    // Pixels hold no value before they are given one.
+    // The pixels of these two hold no value before they are given one.
     static Plane unset(int64_t nx, int64_t ny) { return Plane(nx, ny, nx); }
     static Plane with_aligned_rows(int64_t nx, int64_t ny) {
         constexpr auto line = static_cast<int64_t>(cache_line / sizeof(T));

@@ -208,7 +208,7 @@ std::vector<Field> make_fields(const Optics &optics, std::span<const Light> ligh
     const double ratio = guessed_ratio(optics.aperture->area() * pixel * pixel);
     const auto [for_colour, for_the_rest] = shares_of(settings.eps, all);
     double tolerance = for_the_rest / ratio;
-    double for_rule = for_colour / 3;
+    double for_rule = 2 * for_colour; // the rule's own bound is wide
     for (int count = 0;; ++count) {
         const ImageMaker maker(optics, settings, blue, radius, tolerance);
         manners.require_memory(maker.memory(lights.size()), "a field of that radius");

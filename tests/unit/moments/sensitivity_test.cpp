@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <gtest/gtest.h>
+#include <ostream>
 #include <random>
 #include <vector>
 
@@ -50,6 +51,10 @@ struct Setting {
     MomentsMethod method;
     bool masked;
 };
+
+void PrintTo(const Setting &setting, std::ostream *out) {
+    *out << setting.name;
+}
 
 Plane<float> mask_of(bool masked) {
     Plane<float> missing(masked ? nx : 0, masked ? ny : 0);
