@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 namespace wfpsf {
 
@@ -65,17 +66,24 @@ const GaussLegendre &GaussLegendreRules::of(int n) {
 }
 
 int gauss_legendre_points(double K, double eps) {
-    for (int n = static_cast<int>(K / 2) + 1;; ++n) {
-        const double nu = 2 * n + 0.5;
-        const double ratio = K / nu;
-        if (ratio == 0)
-            return n;
+    if (K == 0)
+        return 1;
+    const double needed = std::log(8 / eps);
+    const auto enough = [&](int n) {
+        const double nu = 2 * n + 0.5, ratio = K / nu;
         if (ratio >= 1)
-            continue;
-        const double exponent = nu * (std::acosh(1 / ratio) - std::sqrt(1 - ratio * ratio));
-        if (8 * std::exp(-exponent) < eps)
-            return n;
+            return false;
+        const double root = std::sqrt((1 - ratio) * (1 + ratio));
+        return nu * (std::log((1 + root) / ratio) - root) > needed;
+    };
+    int too_few = static_cast<int>(K / 2), n = too_few + 8;
+    for (; !enough(n); n += n - too_few)
+        ;
+    while (n - too_few > 1) {
+        const int middle = std::midpoint(too_few, n);
+        (enough(middle) ? n : too_few) = middle;
     }
+    return n;
 }
 
 } // namespace wfpsf
