@@ -73,7 +73,7 @@ double worst_error(const Detector &detector, const Stamp &stamp) {
 }
 
 // The time is that of one place, once what is held was made.
-Case place_case(const char *name, double eps, std::function<Stamp(const Detector &)> make) {
+Case place_case(const char *name, double eps, const std::function<Stamp(const Detector &)> &make) {
     return {name, "largest pixel error / peak pixel", 0, eps, [=] {
                 const Detector detector;
                 const Stamp stamp = make(detector);

@@ -52,7 +52,7 @@ Kept &kept() {
 
 // Up to an eighth more, so that images of nearly equal size share their blocks.
 size_t rounded(size_t bytes) {
-    const size_t step = std::bit_floor(bytes) / 8;
+    const size_t step = std::max<size_t>(std::bit_floor(bytes) / 8, 1);
     return (bytes + step - 1) / step * step;
 }
 
