@@ -7,6 +7,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <string>
 #include <utility>
 
 #include <wfpsf/study.h>
@@ -132,7 +133,7 @@ class StarReport {
         }
     }
 
-    void add(const char *quantity, const char *parameter, const Slope &slope, double fit) {
+    void add(const char *quantity, const std::string &parameter, const Slope &slope, double fit) {
         const double paper = is_papers(source_) && s_.struts
                                  ? paper_sensitivity(s_.band.name, quantity, parameter)
                                  : nan;
@@ -154,9 +155,20 @@ class StarReport {
             add_all(parameter, exact_.along_blur(variance));
     }
 
-    void add_all(const char *parameter, const StarShape<HyperDual> &shape) {
+    // Z4 to the last term that the instrument has, Z11 at least; per wave.
+    void add_zernikes() {
+        constexpr size_t first = 4, least = 11;
+        const size_t last = std::max(least, source_.instrument.zernikes(source_.sca).size());
+        size_t j = first;
+        for (const IpcStar &change :
+             zernike_changes(s_.psf, s_.star, source_.instrument.diameter_m() / 2, first, last))
+            add_all(std::to_string(j++).insert(0, 1, 'Z'),
+                    exact_.along(change.image(nominal_ipc).view()));
+    }
+
+    void add_all(const std::string &parameter, const StarShape<HyperDual> &shape) {
         for (const char *quantity : {"sigma", "e1", "e2"})
-            add(quantity, parameter, slope_of(shape, quantity), nan);
+            add(quantity, parameter, {slope_of(shape, quantity).first, nan}, nan);
     }
 
   private:
@@ -200,8 +212,10 @@ void add_sensitivities(const StudySource &source, const Stars &stars, Study &stu
                     {}};
     for (const BandStar &s : stars) {
         StarReport report(source, s, slopes, laws);
-        if (s.struts == source.struts)
+        if (s.struts == source.struts) {
+            report.add_zernikes();
             report.add_blur();
+        }
     }
     study[WFPSF_STUDY_SENSITIVITIES] = std::move(slopes);
     study[WFPSF_STUDY_LINEAR_LAW] = std::move(laws);

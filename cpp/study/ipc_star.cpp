@@ -44,13 +44,42 @@ int64_t IpcStar::sufficient_side(double bandwidth) {
 }
 
 IpcStar::IpcStar(const Psf &psf, int64_t oversampling, int64_t native_side)
-    : oversampling_(oversampling), image_(native_side * oversampling, native_side * oversampling) {
-    psf.draw({centre(), centre(), 1}, oversampling, image_.view());
+    : IpcStar(
+          [&] {
+              Plane<double> image(native_side * oversampling, native_side * oversampling);
+              const double middle = static_cast<double>(image.nx() - 1) / 2;
+              psf.draw({middle, middle, 1}, oversampling, image.view());
+              return image;
+          }(),
+          oversampling) {}
+
+IpcStar::IpcStar(Plane<double> image, int64_t oversampling)
+    : oversampling_(oversampling), image_(std::move(image)) {
     for (size_t p = 0; p < ipc_parameters; ++p) {
         changes_[p] = Plane<double>(side(), side());
         convolve(View<const double>{tap_slopes[p].data(), 3, 3, 1, 3}, std::as_const(image_).view(),
                  {.tap_step = oversampling}, changes_[p].view());
     }
+}
+
+std::vector<IpcStar> zernike_changes(const Psf &psf, const IpcStar &star, double radius_m,
+                                     size_t first_j, size_t last_j) {
+    std::vector<Wavefront> by;
+    std::vector<double> coefficients(last_j);
+    for (size_t j = first_j; j <= last_j; ++j) {
+        coefficients[j - 1] = 1;
+        by.emplace_back(coefficients, radius_m);
+        coefficients[j - 1] = 0;
+    }
+    const double native_side =
+        static_cast<double>(star.side()) / static_cast<double>(star.oversampling());
+    std::vector<IpcStar> changes;
+    for (const Field &field : psf.changes(by, native_side / 2)) {
+        Plane<double> image(star.side(), star.side());
+        field.draw({star.centre(), star.centre(), 1}, star.oversampling(), 0, 0, image.view());
+        changes.emplace_back(std::move(image), star.oversampling());
+    }
+    return changes;
 }
 
 Plane<double> IpcStar::image(const Ipc &ipc) const {
@@ -111,12 +140,7 @@ StarShape<HyperDual> StarSlopes::along_blur(const Covariance &variance) const {
                               b * at(a + 1, b - 1) + at(a + 1, b + 1);
             sums.sum[a][b] = (ctt * tt + 2 * ctv * tv + cvv * vv) / 2;
         }
-    StarShape<HyperDual> result = shape(sums);
-    // The second derivative would take sums of the fourth order of the change.
-    for (HyperDual *number :
-         {&result.x, &result.y, &result.sigma, &result.trace, &result.e1, &result.e2})
-        number->dab = std::nan("");
-    return result;
+    return shape(sums);
 }
 
 } // namespace wfpsf

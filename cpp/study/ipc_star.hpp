@@ -29,6 +29,8 @@ class IpcStar {
   public:
     // On samples N a native pixel, the star at the centre of a square.
     IpcStar(const Psf &psf, int64_t oversampling, int64_t native_side);
+    // The same from that image, or from how it changes: IPC is linear in it.
+    IpcStar(Plane<double> image, int64_t oversampling);
 
     // As many samples as moments of a band-limited image need: its spectrum times the weight's is
     // rounding at the first alias. Light of no more than so many cycles a native pixel.
@@ -54,6 +56,11 @@ class IpcStar {
     std::array<Plane<double>, ipc_parameters> changes_;
 };
 
+// How a star's image without IPC answers to Noll's Zernike terms first_j, first_j + 1, ..., per
+// wave at the wavelength of the PSF's settings; unit rms over a circle of that radius.
+std::vector<IpcStar> zernike_changes(const Psf &psf, const IpcStar &star, double radius_m,
+                                     size_t first_j, size_t last_j);
+
 inline constexpr AdaptiveOptions study_moments{.tolerance = 1e-12};
 
 // Derivatives at a solution, along any change of the image.
@@ -61,10 +68,10 @@ class StarSlopes {
   public:
     StarSlopes(const IpcStar &star, const Plane<double> &image, const AdaptiveMoments &solution);
 
-    // da is the first derivative along the change, dab the second.
+    // da is the first derivative along the change, dab the second, if the image is linear in it.
     StarShape<HyperDual> along(View<const double> change) const;
     // By a variance of additional Gaussian blur, native pixels^2: along it the image obeys the heat
-    // equation, and the sums under the weight take the derivatives over.
+    // equation, and the sums under the weight take the derivatives over. No second derivative.
     StarShape<HyperDual> along_blur(const Covariance &variance) const;
 
   private:

@@ -4,6 +4,7 @@
 #include "detector/ipc_convolve.hpp"
 #include "study/ipc_star.hpp"
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
@@ -21,22 +22,21 @@ IpcStar star_of(const Psf &psf) {
 }
 
 Psf precise_psf(const Covariance &blur = {}, const Wavefront &wavefront = c5_wavefront(7)) {
-    return c5_psf(wavelength, wavefront, c5_settings(1e-11, 16, blur));
+    return c5_psf(wavelength, wavefront, c5_settings(1e-12, 16, blur));
 }
 
 // Central differences at three steps, Richardson's extrapolation to none.
 StarShape<double> differences(const std::function<StarShape<double>(double)> &at, double h) {
-    const auto each = [&](auto number) {
-        const auto slope = [&](double step) {
-            return (number(at(step)) - number(at(-step))) / (2 * step);
-        };
-        const double f1 = slope(h), f2 = slope(2 * h), f4 = slope(4 * h);
-        return (16 * (4 * f1 - f2) / 3 - (4 * f2 - f4) / 3) / 15;
-    };
     using S = StarShape<double>;
-    return {each([](const S &s) { return s.x; }),     each([](const S &s) { return s.y; }),
-            each([](const S &s) { return s.sigma; }), each([](const S &s) { return s.trace; }),
-            each([](const S &s) { return s.e1; }),    each([](const S &s) { return s.e2; })};
+    const std::array<S, 3> up{at(h), at(2 * h), at(4 * h)};
+    const std::array<S, 3> down{at(-h), at(-2 * h), at(-4 * h)};
+    const auto each = [&](double S::*number) {
+        const auto slope = [&](size_t i) {
+            return (up[i].*number - down[i].*number) / (2 * h * static_cast<double>(1 << i));
+        };
+        return (16 * (4 * slope(0) - slope(1)) / 3 - (4 * slope(1) - slope(2)) / 3) / 15;
+    };
+    return {each(&S::x), each(&S::y), each(&S::sigma), each(&S::trace), each(&S::e1), each(&S::e2)};
 }
 
 void expect_slopes(const StarShape<HyperDual> &slopes, const StarShape<double> &expected,
@@ -94,6 +94,25 @@ TEST(IpcStar, SlopesByBlur) {
             return moved.shape(moved.measure(moved.image(nominal_ipc)));
         };
         expect_slopes(slopes.along_blur(by), differences(at, 2e-3), 1e-8);
+    }
+}
+
+// Differences of whole PSFs.
+TEST(IpcStar, SlopesByZernikes) {
+    const Psf psf = precise_psf();
+    const IpcStar star = star_of(psf);
+    const Plane<double> image = star.image(nominal_ipc);
+    const StarSlopes slopes(star, image, star.measure(image));
+    const std::vector<IpcStar> changes = zernike_changes(psf, star, 1.18, 4, 11);
+    ASSERT_EQ(changes.size(), 8u);
+    for (size_t j = 4; j <= 11; ++j) {
+        SCOPED_TRACE(j);
+        const auto at = [&](double t) {
+            const IpcStar moved = star_of(precise_psf({}, c5_wavefront(7, j, t)));
+            return moved.shape(moved.measure(moved.image(nominal_ipc)));
+        };
+        expect_slopes(slopes.along(changes[j - 4].image(nominal_ipc).view()), differences(at, 1e-3),
+                      1e-8);
     }
 }
 
