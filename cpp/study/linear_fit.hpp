@@ -16,6 +16,27 @@ inline double grid_value(size_t i, double half) {
     return half * (static_cast<double>(i) - 5) / 5;
 }
 
+// A smooth function on the square grid from its values at 7 x 7 of the points: the polynomial of
+// the fourth degree in each parameter that meets them. Column and row of the k-th: grid_nodes[k].
+inline constexpr std::array<size_t, 7> grid_nodes{0, 1, 3, 5, 7, 9, 10}; // about Chebyshev's
+using GridNodes = std::array<std::array<double, 7>, 7>;                  // [row][column]
+
+inline double interpolate_grid(const GridNodes &values, size_t i, size_t j) {
+    const auto weight = [](size_t k, size_t at) {
+        double product = 1;
+        for (const size_t other : grid_nodes)
+            if (other != grid_nodes[k])
+                product *= (static_cast<double>(at) - static_cast<double>(other)) /
+                           (static_cast<double>(grid_nodes[k]) - static_cast<double>(other));
+        return product;
+    };
+    double sum = 0;
+    for (size_t row = 0; row < grid_nodes.size(); ++row)
+        for (size_t column = 0; column < grid_nodes.size(); ++column)
+            sum += weight(row, j) * weight(column, i) * values[row][column];
+    return sum;
+}
+
 struct GridPoint {
     double a, b, value; // parameters, and the change from where both are 0
 };

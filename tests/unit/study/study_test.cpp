@@ -2,6 +2,7 @@
 // Whole studies: what is in them, and whether their error estimates hold.
 #include "c5_star.hpp"
 #include "error/error.hpp"
+#include "study/band_star.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -53,6 +54,24 @@ TEST(Study, ErrorEstimatesHold) {
                           number(own, i, "error_estimate"))
                     << study_file(key) << " row " << i;
         }
+    }
+}
+
+// Of all of the grid's points, most of which are interpolated.
+TEST(Study, FigureOfHalfLightIsThatOfItsImages) {
+    const StudySource source = c5_source(1e-6);
+    const StudyTable table = make_study(source).at(WFPSF_STUDY_FIGURE_4);
+    StarMaker maker(source);
+    const BandStar s(maker, c5().band("J129"), true);
+    const auto ee50 = [&s](const Ipc &ipc) {
+        const Plane<double> image = s.star.image(ipc);
+        const Gaussian w = solved(s.star, image, s.band).weight;
+        return s.half_light(image, w.x, w.y);
+    };
+    const double from = ee50({});
+    for (size_t i = 0; i < table.rows.size(); i += 3) {
+        const Ipc ipc{number(table, i, "alpha"), number(table, i, "alpha_prime")};
+        EXPECT_NEAR(number(table, i, "J129"), 100 * (ee50(ipc) / from - 1), 1e-6);
     }
 }
 

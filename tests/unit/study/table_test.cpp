@@ -31,5 +31,19 @@ TEST(LinearFit, FindsAPlaneAndTheErrorOfACurve) {
     EXPECT_NEAR(largest_change(points), 0.017, 1e-12);
 }
 
+TEST(LinearFit, InterpolatesPolynomialsOfTheSixthDegree) {
+    const auto f = [](size_t i, size_t j) {
+        const double a = grid_value(i, 1), b = grid_value(j, 2);
+        return 1 + a * (2 - a * a * (a + b)) + std::pow(b, 6) * std::pow(a, 5);
+    };
+    GridNodes nodes;
+    for (size_t row = 0; row < grid_nodes.size(); ++row)
+        for (size_t column = 0; column < grid_nodes.size(); ++column)
+            nodes[row][column] = f(grid_nodes[column], grid_nodes[row]);
+    for (size_t j = 0; j < grid_side; ++j)
+        for (size_t i = 0; i < grid_side; ++i)
+            EXPECT_NEAR(interpolate_grid(nodes, i, j), f(i, j), 1e-12);
+}
+
 } // namespace
 } // namespace wfpsf
