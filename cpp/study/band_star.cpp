@@ -70,8 +70,7 @@ BandStar::BandStar(StarMaker &maker, const Band &of_band, bool with_struts)
       light(light_on_field(psf, star.oversampling())), image(star.image(nominal_ipc)),
       bare(solved(star, star.image({}), band)), nominal(solved(star, image, band, bare.weight)) {}
 
-EncircledOptions BandStar::encircled() const {
-    constexpr double eps = 1e-6; // meets 1e-8 of the radius
+EncircledOptions BandStar::encircled(double eps) const {
     return {bandwidth / static_cast<double>(star.oversampling()), eps};
 }
 
@@ -84,28 +83,30 @@ double BandStar::error(const AdaptiveMoments &m) const {
     return m.error_estimate / 2 + 2 * psf.error_estimate();
 }
 
-// The radius varies slowly with the centre, which itself moves by thousandths of a pixel: central
-// differences are enough.
+// By the image exactly; by the centre, which matters less, from central differences without their
+// second order.
 HalfLightSlopes::HalfLightSlopes(const BandStar &star)
-    : s_(star),
+    : s_(star), precise_(star.encircled(1e-10)),
       radius_(encircled_radius(star.image.view(), star.nominal.weight.x, star.nominal.weight.y, 0.5,
-                               star.light, star.encircled())) {
+                               star.light, precise_)) {
     const auto oversampling = static_cast<double>(star.star.oversampling());
-    const double h = 0.02 * oversampling;
-    const auto slope = [&](double dx, double dy) {
-        const Gaussian &w = star.nominal.weight;
-        return oversampling *
-               (star.half_light(star.image, w.x + dx, w.y + dy) -
-                star.half_light(star.image, w.x - dx, w.y - dy)) /
-               (2 * h);
+    const Gaussian &w = star.nominal.weight;
+    const auto slope = [&](double x, double y) {
+        const auto difference = [&](double h) {
+            return (star.half_light(star.image, w.x + h * x, w.y + h * y) -
+                    star.half_light(star.image, w.x - h * x, w.y - h * y)) *
+                   oversampling / (2 * h);
+        };
+        const double h = 0.02 * oversampling;
+        return (4 * difference(h) - difference(2 * h)) / 3;
     };
-    by_x_ = slope(h, 0);
-    by_y_ = slope(0, h);
+    by_x_ = slope(1, 0);
+    by_y_ = slope(0, 1);
 }
 
 double HalfLightSlopes::along(View<const double> change, const StarShape<HyperDual> &shape) const {
     const Gaussian &w = s_.nominal.weight;
-    const double gained = encircled_energy(change, w.x, w.y, radius_.radius, s_.encircled()).energy;
+    const double gained = encircled_energy(change, w.x, w.y, radius_.radius, precise_).energy;
     const auto oversampling = static_cast<double>(s_.star.oversampling());
     const double moved = oversampling * (by_x_ * shape.x.da + by_y_ * shape.y.da);
     return (moved - gained / radius_.density) / radius_.radius;

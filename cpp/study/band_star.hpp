@@ -49,7 +49,7 @@ struct BandStar {
     double half_light_axis(const Plane<double> &of) const {
         return half_light(of, star.centre(), star.centre());
     }
-    EncircledOptions encircled() const;
+    EncircledOptions encircled(double eps = 1e-6) const; // meets 1e-8 of a radius
     // Relative error of sizes, and half of that of ellipticities, numerical.
     double error(const AdaptiveMoments &m) const;
 };
@@ -64,6 +64,7 @@ class HalfLightSlopes {
 
   private:
     const BandStar &s_;
+    EncircledOptions precise_;
     EncircledRadius radius_; // samples
     double by_x_, by_y_;     // of it by the centre, samples
 };

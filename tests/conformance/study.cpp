@@ -68,7 +68,8 @@ TEST(Study, MeetsTheTruth) {
         const int sca = row.integer("sca");
         if (!by_sca.contains(sca))
             by_sca[sca] = slopes(make_study(sca));
-        for (const auto &[column, parameter] : parameters) {
+        for (const auto &names : parameters) {
+            const char *const column = names[0], *const parameter = names[1];
             const auto own = [&](const char *quantity) {
                 return by_sca[sca]
                     .at({row.text("band"), row.integer("struts"), quantity, parameter})

@@ -75,6 +75,32 @@ TEST(Study, FigureOfHalfLightIsThatOfItsImages) {
     }
 }
 
+// Against central differences of whole measurements, extrapolated, of half-light radii to 1e-12.
+TEST(Study, SlopesOfHalfLight) {
+    const StudySource source = c5_source(1e-9);
+    StarMaker maker(source);
+    for (const bool struts : {true, false}) {
+        const BandStar s(maker, c5().band("J129"), struts);
+        const HalfLightSlopes slopes(s);
+        const StarSlopes moments(s.star, s.image, s.nominal);
+        double Ipc::*const members[] = {&Ipc::alpha, &Ipc::alpha_prime, &Ipc::alpha_plus};
+        for (size_t p = 0; p < ipc_parameters; ++p) {
+            const auto ee50 = [&](double change) {
+                Ipc ipc = nominal_ipc;
+                ipc.*members[p] += change;
+                const Plane<double> image = s.star.image(ipc);
+                const Gaussian w = solved(s.star, image, s.band).weight;
+                return encircled_radius(image.view(), w.x, w.y, 0.5, s.light, s.encircled(1e-12))
+                    .radius;
+            };
+            const auto slope = [&](double h) { return (ee50(h) - ee50(-h)) / (2 * h) / ee50(0); };
+            const auto change = s.star.change(p);
+            EXPECT_NEAR(slopes.along(change, moments.along(change)),
+                        (4 * slope(1e-3) - slope(2e-3)) / 3, 2e-6);
+        }
+    }
+}
+
 // Errors as large as the table allows just meet the requirements.
 TEST(Study, LargestErrorsMeetTheRequirements) {
     const StudyTable table = make_study(c5_source(1e-5)).at(WFPSF_STUDY_REQUIREMENTS);
