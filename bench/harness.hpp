@@ -37,5 +37,6 @@ std::vector<Case> varying_psf_cases();
 std::vector<Case> transform_cases();
 std::vector<Case> ipc_cases();
 std::vector<Case> moments_cases();
+std::vector<Case> study_cases();
 
 } // namespace wfpsf::bench

@@ -12,6 +12,7 @@
 #include "optics/otf.hpp"
 #include "optics/psf.hpp"
 #include "optics/varying_psf.hpp"
+#include "study/study.hpp"
 
 #include <array>
 #include <memory>
@@ -89,6 +90,10 @@ struct wfpsf_moments {
         Slopes slopes;
     };
     std::optional<Covariance> covariance = {};
+};
+
+struct wfpsf_study {
+    wfpsf::Study study;
 };
 
 namespace wfpsf {

@@ -12,6 +12,7 @@
 #include "optics/wavefront.hpp"
 
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace wfpsf {
@@ -67,6 +68,13 @@ class Aperture {
                                                                         double eps) const = 0;
     virtual StripMemory strip_memory(double wavelength, const FocalGrid &grid,
                                      double eps) const = 0;
+
+    // How |A|^2 answers to wavefronts that are added, exactly and for each by itself: its
+    // derivative, 2 Re(A* dA), by the factor of one of `by`. Good to about eps of area^2 times the
+    // largest phase of it, 2 pi |by|. A mask has none: WFPSF_ERROR_ARGUMENT.
+    virtual std::vector<Plane<double>> changes(const Wavefront &wavefront,
+                                               std::span<const Wavefront> by, double wavelength,
+                                               const FocalGrid &grid, double eps) const = 0;
 
     // The pupil drawn on nx by ny square pixels, or a mask's own pixels, however many.
     virtual PupilRaster raster(int64_t nx, int64_t ny) const = 0;

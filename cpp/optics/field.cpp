@@ -250,6 +250,29 @@ Field make_field_like(const Field &like, const Optics &optics, const PsfSettings
     return field;
 }
 
+std::vector<Field> make_field_changes(const Field &like, const Optics &optics,
+                                      std::span<const Wavefront> by, const PsfSettings &settings,
+                                      double radius) {
+    const ImageMaker maker(optics, settings, like.shortest_wavelength, radius, like.tolerance);
+    const int64_t size = maker.grid().size;
+    std::vector<Plane<double>> sums(by.size(), Plane<double>(size, size));
+    for (const Colour &colour : like.colours) {
+        const double scale = colour.weight * maker.scale(colour.wavelength);
+        const std::vector<Plane<double>> changes = maker.changes(colour.wavelength, by);
+        for (size_t i = 0; i < by.size(); ++i)
+            for (int64_t y = 0; y < size; ++y)
+                for (int64_t x = 0; x < size; ++x)
+                    sums[i](x, y) += scale * changes[i](x, y);
+    }
+    std::vector<Field> fields;
+    for (const Plane<double> &sum : sums) {
+        Field &field = fields.emplace_back(maker.interpolator());
+        field.per_pixel = maker.per_pixel();
+        field.value = maker.averaged(sum);
+    }
+    return fields;
+}
+
 void Field::find_peaks() {
     peak = 0;
     int64_t peak_x = 0, peak_y = 0;

@@ -81,4 +81,10 @@ std::vector<Field> make_fields(const Optics &optics, std::span<const Light> ligh
 Field make_field_like(const Field &like, const Optics &optics, const PsfSettings &settings,
                       double radius);
 
+// How that field answers to wavefronts that are added, in the unit of the optics' own: its
+// derivatives by their factors, each to be drawn like a field. See Aperture::changes().
+std::vector<Field> make_field_changes(const Field &like, const Optics &optics,
+                                      std::span<const Wavefront> by, const PsfSettings &settings,
+                                      double radius);
+
 } // namespace wfpsf

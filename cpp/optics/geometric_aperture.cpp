@@ -17,6 +17,7 @@
 #include <numbers>
 #include <numeric>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace wfpsf {
@@ -49,6 +50,15 @@ struct Sources {
         wavefront.evaluate(nodes.x, nodes.y, waves.data());
         wfpsf::waves(waves, nodes.weight.data(), re.data(), im.data());
     }
+
+    // Times 2 pi i change.
+    void differentiate(const PupilNodes &nodes, const Wavefront &change) {
+        change.evaluate(nodes.x, nodes.y, waves.data());
+        for (size_t n = 0; n < nodes.size(); ++n) {
+            const double phase = 2 * pi * waves[n];
+            re[n] = -phase * std::exchange(im[n], phase * re[n]);
+        }
+    }
 };
 
 struct Quadrature {
@@ -66,18 +76,22 @@ struct Bands {
           modes((grid.size - 1) / 2) {}
 };
 
-// The amplitude on a grid, by a nonuniform FFT: made of the nodes once, then asked for its rows.
+// The amplitude on a grid, by a nonuniform FFT: made of the nodes once, then asked for its rows. Or
+// its derivative, as a multiple of `change` is added to the wavefront.
 class Transform {
   public:
     template <class Pupil>
     Transform(const Pupil &pupil, const Wavefront &wavefront, double wavelength,
-              const FocalGrid &grid, const Quadrature &quadrature, double eps)
+              const FocalGrid &grid, const Quadrature &quadrature, double eps,
+              const Wavefront *change = nullptr)
         : bands_(bounds(pupil), wavelength, grid), nufft_(bands_.x, bands_.y, bands_.modes, eps) {
         Sources sources;
         std::vector<double> a, b;
         std::vector<Complex> c;
         pupil_nodes(pupil, quadrature.wavenumber, quadrature.eps, [&](const PupilNodes &nodes) {
             sources.take(nodes, wavefront);
+            if (change)
+                sources.differentiate(nodes, *change);
             a.resize(nodes.size());
             b.resize(nodes.size());
             c.resize(nodes.size());
@@ -102,6 +116,16 @@ class Transform {
                         double *row = out.view().row(jy - origin);
                         for (size_t x = 0; x < amplitude.size(); ++x)
                             row[x] = std::norm(amplitude[x]);
+                    });
+        return out;
+    }
+
+    // The amplitude itself, on all of the grid.
+    Plane<Complex> amplitude() const {
+        auto out = Plane<Complex>::unset(2 * bands_.modes + 1, 2 * bands_.modes + 1);
+        nufft_.rows(-bands_.modes, bands_.modes,
+                    [&](int64_t jy, std::span<const Complex> amplitude) {
+                        std::ranges::copy(amplitude, out.view().row(jy + bands_.modes));
                     });
         return out;
     }
@@ -209,19 +233,34 @@ template <class Pupil> class GeometricAperture final : public Aperture {
         return out;
     }
 
+    std::vector<Plane<double>> changes(const Wavefront &wavefront, std::span<const Wavefront> by,
+                                       double wavelength, const FocalGrid &grid,
+                                       double eps) const override {
+        const Quadrature quadrature = refined(wavefront, wavelength, grid, eps).quadrature;
+        const Plane<Complex> amplitude =
+            Transform(pupil_, wavefront, wavelength, grid, quadrature, eps).amplitude();
+        std::vector<Plane<double>> changes;
+        for (const Wavefront &change : by) {
+            const Plane<Complex> slope =
+                Transform(pupil_, wavefront, wavelength, grid, quadrature, eps, &change)
+                    .amplitude();
+            auto &out = changes.emplace_back(Plane<double>::unset(grid.size, grid.size));
+            for (int64_t y = 0; y < grid.size; ++y)
+                for (int64_t x = 0; x < grid.size; ++x)
+                    out(x, y) = 2 * (amplitude(x, y).real() * slope(x, y).real() +
+                                     amplitude(x, y).imag() * slope(x, y).imag());
+        }
+        return changes;
+    }
+
     // The transform is trusted by its own bound, since its rows are not at hand.
     std::unique_ptr<const DiffractionStrips> diffract_in_strips(const Wavefront &wavefront,
                                                                 double wavelength,
                                                                 const FocalGrid &grid,
                                                                 double eps) const override {
         const double transform_eps = strip_share * eps;
-        Quadrature best{};
-        double error = 0;
-        refine(wavefront, wavelength, grid, (1 - 4 * strip_share) * eps,
-               [&](const Quadrature &own, const Quadrature &finer, double) {
-                   best = own;
-                   return error = quadrature_error(wavefront, wavelength, grid, own, finer);
-               });
+        const auto [best, error] =
+            refined(wavefront, wavelength, grid, (1 - 4 * strip_share) * eps);
         return std::make_unique<GeometricStrips>(
             Transform(pupil_, wavefront, wavelength, grid, best, transform_eps),
             error + 2 * std::max(transform_eps, nufft_best_eps));
@@ -272,6 +311,22 @@ template <class Pupil> class GeometricAperture final : public Aperture {
                 asked *= std::clamp(eps / error, 1e-3, 0.3);
             before = error;
         }
+    }
+
+    struct Refined {
+        Quadrature quadrature;
+        double error;
+    };
+    // A quadrature that meets eps at the probes, by plain sums.
+    Refined refined(const Wavefront &wavefront, double wavelength, const FocalGrid &grid,
+                    double eps) const {
+        Refined best{};
+        refine(wavefront, wavelength, grid, eps,
+               [&](const Quadrature &own, const Quadrature &finer, double) {
+                   best = {own, quadrature_error(wavefront, wavelength, grid, own, finer)};
+                   return best.error;
+               });
+        return best;
     }
 
     // Four times the largest difference of |A|^2 at the probes between two quadratures.

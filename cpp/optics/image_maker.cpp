@@ -63,12 +63,22 @@ double ImageMaker::unaberrated_peak(double wavelength) const {
 }
 
 Diffraction ImageMaker::diffract(double wavelength) const {
-    return optics_.aperture->diffract(wavefront(wavelength), wavelength, grid_, for_diffraction_);
+    return optics_.aperture->diffract(at(wavelength, optics_.wavefront), wavelength, grid_,
+                                      for_diffraction_);
+}
+
+std::vector<Plane<double>> ImageMaker::changes(double wavelength,
+                                               std::span<const Wavefront> by) const {
+    std::vector<Wavefront> scaled;
+    for (const Wavefront &change : by)
+        scaled.push_back(at(wavelength, change));
+    return optics_.aperture->changes(at(wavelength, optics_.wavefront), scaled, wavelength, grid_,
+                                     for_diffraction_);
 }
 
 std::unique_ptr<const DiffractionStrips> ImageMaker::diffract_in_strips(double wavelength) const {
-    return optics_.aperture->diffract_in_strips(wavefront(wavelength), wavelength, grid_,
-                                                for_diffraction_);
+    return optics_.aperture->diffract_in_strips(at(wavelength, optics_.wavefront), wavelength,
+                                                grid_, for_diffraction_);
 }
 
 StripMemory ImageMaker::strip_memory(double wavelength) const {

@@ -36,6 +36,8 @@ class ImageMaker {
     double unaberrated_peak(double wavelength) const;
 
     Diffraction diffract(double wavelength) const;
+    // By the factors of wavefronts in the unit of the optics' own: see Aperture::changes().
+    std::vector<Plane<double>> changes(double wavelength, std::span<const Wavefront> by) const;
     std::unique_ptr<const DiffractionStrips> diffract_in_strips(double wavelength) const;
     StripMemory strip_memory(double wavelength) const;
     // Bytes that so many fields take while they are made.
@@ -56,8 +58,8 @@ class ImageMaker {
     double bandwidth(double shortest_wavelength) const {
         return optics_.aperture->diameter() * step_ / shortest_wavelength;
     }
-    Wavefront wavefront(double wavelength) const {
-        return optics_.wavefront.scaled(optics_.wavelength / wavelength);
+    Wavefront at(double wavelength, const Wavefront &wavefront) const {
+        return wavefront.scaled(optics_.wavelength / wavelength);
     }
 
     const Optics &optics_;

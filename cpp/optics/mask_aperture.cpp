@@ -129,6 +129,11 @@ class MaskAperture final : public Aperture {
                                             std::move(squared), turns, lit_.nx() * lit_.ny());
     }
 
+    std::vector<Plane<double>> changes(const Wavefront &, std::span<const Wavefront>, double,
+                                       const FocalGrid &, double) const override {
+        fail(WFPSF_ERROR_ARGUMENT, "mask: derivatives are of pupils given as geometry alone");
+    }
+
     StripMemory strip_memory(double, const FocalGrid &grid, double) const override {
         const int64_t lines = grid.size * lit_.ny();
         const int64_t buffer = ChirpTransform::batch * 4 * (grid.size + lit_.ny());

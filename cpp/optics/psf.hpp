@@ -41,6 +41,12 @@ class Psf {
     template <class T>
     void add(std::span<const Star> stars, int64_t oversampling, View<T> image, int threads) const;
 
+    // Its derivatives by the factors of wavefronts that are added, in waves at
+    // settings().wavelength: as fields, to be drawn within `radius` native pixels.
+    std::vector<Field> changes(std::span<const Wavefront> by, double radius) const {
+        return make_field_changes(field_, optics_, by, settings_, radius);
+    }
+
     const PsfSettings &settings() const { return settings_; }
     double lit_area() const { return optics_.aperture->area(); } // m^2
     int64_t nodes() const { return field_.nodes; }

@@ -156,6 +156,19 @@ module wfpsf
         final :: otf_finalize
     end type wfpsf_otf
 
+    ! The tables of the paper, all at once.
+    type, extends(handle) :: wfpsf_study
+    contains
+        procedure :: create => study_create
+        procedure :: destroy => study_destroy
+        procedure :: size => study_size
+        procedure :: column => study_column
+        procedure :: value => study_value
+        procedure :: text => study_text
+        procedure :: write_csv => study_write_csv
+        final :: study_finalize
+    end type wfpsf_study
+
     ! An interpixel capacitance kernel, applied by convolution.
     type, extends(handle) :: wfpsf_ipc_kernel
     contains
@@ -1559,6 +1572,71 @@ module wfpsf
         impure elemental module subroutine moments_finalize(self)
             type(wfpsf_moments), intent(inout) :: self
         end subroutine moments_finalize
+    end interface
+
+    private :: study_create, study_destroy, study_size, study_column, study_value, study_text
+    private :: study_write_csv, study_finalize
+
+    interface
+        module subroutine study_create(self, instrument, sca, options, stat, errmsg)
+            class(wfpsf_study), intent(inout) :: self
+            type(wfpsf_instrument), intent(in) :: instrument
+            integer, intent(in) :: sca
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine study_create
+
+        module subroutine study_destroy(self)
+            class(wfpsf_study), intent(inout) :: self
+        end subroutine study_destroy
+
+        ! table: wfpsf_study_*, here and below.
+        module subroutine study_size(self, table, rows, columns, stat, errmsg)
+            class(wfpsf_study), intent(in) :: self
+            integer, intent(in) :: table
+            integer(int64), intent(inout), optional :: rows, columns
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine study_size
+
+        ! The name of a column, from 1; empty past the last one.
+        module function study_column(self, table, column) result(name)
+            class(wfpsf_study), intent(in) :: self
+            integer, intent(in) :: table
+            integer(int64), intent(in) :: column
+            character(len=:), allocatable :: name
+        end function study_column
+
+        ! Row and column from 1. NaN where nothing is known, or where words stand.
+        module subroutine study_value(self, table, row, column, value, stat, errmsg)
+            class(wfpsf_study), intent(in) :: self
+            integer, intent(in) :: table
+            integer(int64), intent(in) :: row, column
+            real(real64), intent(inout) :: value
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine study_value
+
+        ! The words in a place; empty where a number stands, or past the end.
+        module function study_text(self, table, row, column) result(words)
+            class(wfpsf_study), intent(in) :: self
+            integer, intent(in) :: table
+            integer(int64), intent(in) :: row, column
+            character(len=:), allocatable :: words
+        end function study_text
+
+        ! Every table as CSV into a folder that exists.
+        module subroutine study_write_csv(self, folder, stat, errmsg)
+            class(wfpsf_study), intent(in) :: self
+            character(len=*), intent(in) :: folder
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine study_write_csv
+
+        impure elemental module subroutine study_finalize(self)
+            type(wfpsf_study), intent(inout) :: self
+        end subroutine study_finalize
     end interface
 
 end module wfpsf

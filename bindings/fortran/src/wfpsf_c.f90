@@ -230,6 +230,24 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_size_pixel_sum = 2
     integer(c_int32_t), parameter :: wfpsf_size_pixel_interpolated = 3
 
+    ! study.h
+    integer(c_int32_t), parameter :: wfpsf_study_bands = 10
+    integer(c_int32_t), parameter :: wfpsf_study_sizes = 20
+    integer(c_int32_t), parameter :: wfpsf_study_sensitivities = 30
+    integer(c_int32_t), parameter :: wfpsf_study_linear_law = 40
+    integer(c_int32_t), parameter :: wfpsf_study_figure_3 = 103
+    integer(c_int32_t), parameter :: wfpsf_study_figure_4 = 104
+    integer(c_int32_t), parameter :: wfpsf_study_figure_5 = 105
+    integer(c_int32_t), parameter :: wfpsf_study_figure_6 = 106
+    integer(c_int32_t), parameter :: wfpsf_study_figure_7 = 107
+    integer(c_int32_t), parameter :: wfpsf_study_figure_8 = 108
+    integer(c_int32_t), parameter :: wfpsf_study_figure_9 = 109
+    integer(c_int32_t), parameter :: wfpsf_study_figure_10 = 110
+    integer(c_int32_t), parameter :: wfpsf_study_figure_11 = 111
+    integer(c_int32_t), parameter :: wfpsf_study_requirements = 200
+    integer(c_int32_t), parameter :: wfpsf_study_comparison = 210
+    integer(c_int32_t), parameter :: wfpsf_study_convergence = 220
+
 end module wfpsf_constants
 
 ! Every function. Positions count from (0, 0) here. Handles are values of type(c_ptr), text ends
@@ -1649,6 +1667,77 @@ module wfpsf_c
             real(c_double), intent(inout), optional :: fwhm
             integer(c_int32_t) :: outcome
         end function wfpsf_size_profile_fwhm
+
+        ! study.h
+        function wfpsf_study_create(instrument, sca, options, out) &
+            bind(c, name="wfpsf_study_create") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            integer(c_int32_t), value :: sca
+            type(c_ptr), value :: options
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_study_create
+
+        subroutine wfpsf_study_destroy(study) bind(c, name="wfpsf_study_destroy")
+            import :: c_ptr
+            implicit none
+            type(c_ptr), value :: study
+        end subroutine wfpsf_study_destroy
+
+        function wfpsf_study_size(study, table, rows, columns) &
+            bind(c, name="wfpsf_study_size") result(outcome)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: study
+            integer(c_int32_t), value :: table
+            integer(c_int64_t), intent(inout), optional :: rows
+            integer(c_int64_t), intent(inout), optional :: columns
+            integer(c_int32_t) :: outcome
+        end function wfpsf_study_size
+
+        function wfpsf_study_column(study, table, column) &
+            bind(c, name="wfpsf_study_column") result(outcome)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: study
+            integer(c_int32_t), value :: table
+            integer(c_int64_t), value :: column
+            type(c_ptr) :: outcome
+        end function wfpsf_study_column
+
+        function wfpsf_study_value(study, table, row, column, value) &
+            bind(c, name="wfpsf_study_value") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: study
+            integer(c_int32_t), value :: table
+            integer(c_int64_t), value :: row
+            integer(c_int64_t), value :: column
+            real(c_double), intent(inout), optional :: value
+            integer(c_int32_t) :: outcome
+        end function wfpsf_study_value
+
+        function wfpsf_study_text(study, table, row, column) &
+            bind(c, name="wfpsf_study_text") result(outcome)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: study
+            integer(c_int32_t), value :: table
+            integer(c_int64_t), value :: row
+            integer(c_int64_t), value :: column
+            type(c_ptr) :: outcome
+        end function wfpsf_study_text
+
+        function wfpsf_study_write_csv(study, folder) &
+            bind(c, name="wfpsf_study_write_csv") result(outcome)
+            import :: c_char, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: study
+            character(kind=c_char), intent(in), optional :: folder(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_study_write_csv
     end interface
 
 end module wfpsf_c

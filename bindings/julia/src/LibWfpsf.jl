@@ -1083,6 +1083,68 @@ function wfpsf_size_profile_fwhm(image, x, y, options, fwhm)
         image, x, y, options, fwhm)
 end
 
+# study.h
+const WFPSF_STUDY_BANDS = Int32(10)
+const WFPSF_STUDY_SIZES = Int32(20)
+const WFPSF_STUDY_SENSITIVITIES = Int32(30)
+const WFPSF_STUDY_LINEAR_LAW = Int32(40)
+const WFPSF_STUDY_FIGURE_3 = Int32(103)
+const WFPSF_STUDY_FIGURE_4 = Int32(104)
+const WFPSF_STUDY_FIGURE_5 = Int32(105)
+const WFPSF_STUDY_FIGURE_6 = Int32(106)
+const WFPSF_STUDY_FIGURE_7 = Int32(107)
+const WFPSF_STUDY_FIGURE_8 = Int32(108)
+const WFPSF_STUDY_FIGURE_9 = Int32(109)
+const WFPSF_STUDY_FIGURE_10 = Int32(110)
+const WFPSF_STUDY_FIGURE_11 = Int32(111)
+const WFPSF_STUDY_REQUIREMENTS = Int32(200)
+const WFPSF_STUDY_COMPARISON = Int32(210)
+const WFPSF_STUDY_CONVERGENCE = Int32(220)
+
+const wfpsf_study_create_pointer = Ref(C_NULL)
+function wfpsf_study_create(instrument, sca, options, out)
+    return ccall(wfpsf_study_create_pointer[], Int32, (Ptr{Cvoid}, Int32, Ptr{Cvoid},
+        Ptr{Ptr{Cvoid}}),
+        instrument, sca, options, out)
+end
+
+const wfpsf_study_destroy_pointer = Ref(C_NULL)
+function wfpsf_study_destroy(study)
+    return ccall(wfpsf_study_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
+        study)
+end
+
+const wfpsf_study_size_pointer = Ref(C_NULL)
+function wfpsf_study_size(study, table, rows, columns)
+    return ccall(wfpsf_study_size_pointer[], Int32, (Ptr{Cvoid}, Int32, Ptr{Int64}, Ptr{Int64}),
+        study, table, rows, columns)
+end
+
+const wfpsf_study_column_pointer = Ref(C_NULL)
+function wfpsf_study_column(study, table, column)
+    return ccall(wfpsf_study_column_pointer[], Cstring, (Ptr{Cvoid}, Int32, Int64),
+        study, table, column)
+end
+
+const wfpsf_study_value_pointer = Ref(C_NULL)
+function wfpsf_study_value(study, table, row, column, value)
+    return ccall(wfpsf_study_value_pointer[], Int32, (Ptr{Cvoid}, Int32, Int64, Int64,
+        Ptr{Float64}),
+        study, table, row, column, value)
+end
+
+const wfpsf_study_text_pointer = Ref(C_NULL)
+function wfpsf_study_text(study, table, row, column)
+    return ccall(wfpsf_study_text_pointer[], Cstring, (Ptr{Cvoid}, Int32, Int64, Int64),
+        study, table, row, column)
+end
+
+const wfpsf_study_write_csv_pointer = Ref(C_NULL)
+function wfpsf_study_write_csv(study, folder)
+    return ccall(wfpsf_study_write_csv_pointer[], Int32, (Ptr{Cvoid}, Cstring),
+        study, folder)
+end
+
 const pointers = [
     :wfpsf_version => wfpsf_version_pointer,
     :wfpsf_abi_number => wfpsf_abi_number_pointer,
@@ -1213,6 +1275,13 @@ const pointers = [
     :wfpsf_size_ee_radius_derivative => wfpsf_size_ee_radius_derivative_pointer,
     :wfpsf_size_profile => wfpsf_size_profile_pointer,
     :wfpsf_size_profile_fwhm => wfpsf_size_profile_fwhm_pointer,
+    :wfpsf_study_create => wfpsf_study_create_pointer,
+    :wfpsf_study_destroy => wfpsf_study_destroy_pointer,
+    :wfpsf_study_size => wfpsf_study_size_pointer,
+    :wfpsf_study_column => wfpsf_study_column_pointer,
+    :wfpsf_study_value => wfpsf_study_value_pointer,
+    :wfpsf_study_text => wfpsf_study_text_pointer,
+    :wfpsf_study_write_csv => wfpsf_study_write_csv_pointer,
 ]
 
 """

@@ -34,6 +34,7 @@ export WfpsfError, options,
     PSF, psfs, draw, draw!, add_stars!, add_bright_star!, draw_memory, convolve!,
     VaryingPSF,
     OTF, otf_grid,
+    Study, study_table, write_csv,
     IPCKernel, wfc3_kernel, wfc3_deviations, read_kernel, correction, flipped, compose,
     autocorrelation, taps, properties, transform, self_test, apply_ipc, apply_ipc!, correct_ipc!,
     covariance,
@@ -64,6 +65,7 @@ include("varying_ipc.jl")
 include("chain.jl")
 include("moments.jl")
 include("size.jl")
+include("study.jl")
 
 "Version of the loaded library."
 version() = VersionNumber(unsafe_string(LibWfpsf.wfpsf_version()))

@@ -19,6 +19,7 @@
 #include <wfpsf/size.h>
 #include <wfpsf/sky.h>
 #include <wfpsf/status.h>
+#include <wfpsf/study.h>
 #include <wfpsf/varying_ipc.h>
 #include <wfpsf/varying_psf.h>
 #include <wfpsf/version.h>

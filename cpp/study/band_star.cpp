@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "study/band_star.hpp"
+
+#include "error/error.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace wfpsf {
+
+namespace {
+
+constexpr int64_t field_side = 32; // the paper's, native pixels
+
+// The light of a star that samples on that field hold.
+double light_on_field(const Psf &psf, int64_t oversampling) {
+    const int64_t side = field_side * oversampling;
+    Plane<double> field(side, side);
+    const double centre = static_cast<double>(side - 1) / 2;
+    psf.draw({centre, centre, 1}, oversampling, field.view());
+    double sum = 0;
+    for (int64_t y = 0; y < side; ++y)
+        for (int64_t x = 0; x < side; ++x)
+            sum += field(x, y);
+    return sum;
+}
+
+} // namespace
+
+double StarMaker::wavelength(const Band &band) {
+    return thinned_wavelengths(band).effective_nm * 1e-9;
+}
+
+double StarMaker::bandwidth(const Band &band) const {
+    return source_.instrument.diameter_m() * source_.settings.pixel_scale / wavelength(band);
+}
+
+Optics StarMaker::optics(int sca, const Band &band, bool struts) {
+    const Pupil *pupil = struts ? &source_.instrument.pupil(sca, band.name) : nullptr;
+    if (!aperture_ || pupil != of_pupil_) {
+        aperture_ = pupil ? std::visit([](const auto &p) { return make_aperture(p); }, *pupil)
+                          : make_aperture(source_.instrument.annular_pupil());
+        of_pupil_ = pupil;
+    }
+    return {aperture_, source_.wavefront(sca), source_.settings.wavelength};
+}
+
+Psf StarMaker::psf(int sca, const Band &band, bool struts, double radius) {
+    PsfSettings settings = source_.settings;
+    settings.radius = radius;
+    const Light light = monochromatic(wavelength(band));
+    return std::move(make_psfs(optics(sca, band, struts), {&light, 1}, settings,
+                               {.memory_limit = source_.manners.memory_limit})[0]);
+}
+
+AdaptiveMoments solved(const IpcStar &star, const Plane<double> &image, const Band &band,
+                       const std::optional<Gaussian> &guess) {
+    AdaptiveMoments m = star.measure(image, guess);
+    if (m.status < 0 || m.status == WFPSF_WARNING_NOT_CONVERGED)
+        fail(m.status < 0 ? m.status : WFPSF_ERROR_MOMENTS_STALLED,
+             "moments of the PSF in band %s: %s", band.name, m.line.c_str());
+    return m;
+}
+
+BandStar::BandStar(StarMaker &maker, const Band &of_band, bool with_struts)
+    : band(of_band), struts(with_struts), bandwidth(maker.bandwidth(of_band)),
+      psf(maker.psf(maker.source().sca, of_band, with_struts, field_side / 2.0)),
+      star(psf, IpcStar::sufficient_oversampling(bandwidth),
+           std::max<int64_t>(16, IpcStar::sufficient_side(bandwidth))),
+      light(light_on_field(psf, star.oversampling())), image(star.image(nominal_ipc)),
+      bare(solved(star, star.image({}), band)), nominal(solved(star, image, band, bare.weight)) {}
+
+EncircledOptions BandStar::encircled(double eps) const {
+    return {bandwidth / static_cast<double>(star.oversampling()), eps};
+}
+
+double BandStar::half_light(const Plane<double> &of, double x, double y) const {
+    return encircled_radius(of.view(), x, y, 0.5, light, encircled()).radius /
+           static_cast<double>(star.oversampling());
+}
+
+double BandStar::error(const AdaptiveMoments &m) const {
+    return m.error_estimate / 2 + 2 * psf.error_estimate();
+}
+
+// By the image exactly; by the centre, which matters less, from central differences without their
+// second order.
+HalfLightSlopes::HalfLightSlopes(const BandStar &star)
+    : s_(star), precise_(star.encircled(1e-10)),
+      radius_(encircled_radius(star.image.view(), star.nominal.weight.x, star.nominal.weight.y, 0.5,
+                               star.light, precise_)) {
+    const auto oversampling = static_cast<double>(star.star.oversampling());
+    const Gaussian &w = star.nominal.weight;
+    const auto slope = [&](double x, double y) {
+        const auto difference = [&](double h) {
+            return (star.half_light(star.image, w.x + h * x, w.y + h * y) -
+                    star.half_light(star.image, w.x - h * x, w.y - h * y)) *
+                   oversampling / (2 * h);
+        };
+        const double h = 0.02 * oversampling;
+        return (4 * difference(h) - difference(2 * h)) / 3;
+    };
+    by_x_ = slope(1, 0);
+    by_y_ = slope(0, 1);
+}
+
+double HalfLightSlopes::along(View<const double> change, const StarShape<HyperDual> &shape) const {
+    const Gaussian &w = s_.nominal.weight;
+    const double gained = encircled_energy(change, w.x, w.y, radius_.radius, precise_).energy;
+    const auto oversampling = static_cast<double>(s_.star.oversampling());
+    const double moved = oversampling * (by_x_ * shape.x.da + by_y_ * shape.y.da);
+    return (moved - gained / radius_.density) / radius_.radius;
+}
+
+} // namespace wfpsf
