@@ -143,6 +143,7 @@ class PixelSteps {
     int64_t run(const Step &step, const RandomSource &random, const Block &block) const {
         const std::span<double> row = block.pixels;
         const std::vector<double> &p = step.parameters;
+        const double first = p.empty() ? 0 : p[0]; // no pixel can alias it
         switch (step.kind) {
         case StepKind::clip_negative:
             for (double &pixel : row)
@@ -150,7 +151,7 @@ class PixelSteps {
             break;
         case StepKind::background:
             for (double &pixel : row)
-                pixel += p[0];
+                pixel += first;
             break;
         case StepKind::poisson_noise:
             if (how_.with_noise)
@@ -176,12 +177,12 @@ class PixelSteps {
                 add_previous(k, block, [&](double level) { return p[k] * level; });
             break;
         case StepKind::persistence_fermi: {
-            const FermiPersistence model{p[0], p[1], p[2], p[3], p[4], p[5]};
             const double time = p[6];
-            for (size_t k = 0; k < how_.previous.size(); ++k)
-                add_previous(k, block, [&](double level) {
-                    return model.rate(level, (static_cast<double>(k) + 0.5) * time) * time;
-                });
+            for (size_t k = 0; k < how_.previous.size(); ++k) {
+                const FermiPersistence model({p[0], p[1], p[2], p[3], p[4], p[5]},
+                                             (static_cast<double>(k) + 0.5) * time);
+                add_previous(k, block, [&](double level) { return model.rate(level) * time; });
+            }
             break;
         }
         case StepKind::nonlinearity:
@@ -198,14 +199,14 @@ class PixelSteps {
             if (how_.with_noise) {
                 fill_normal(random, block.x, block.y, std::ssize(row), block.scratch.data());
                 for (size_t i = 0; i < row.size(); ++i)
-                    row[i] += p[0] * block.scratch[i];
+                    row[i] += first * block.scratch[i];
             }
             break;
         case StepKind::saturation:
             return saturate(p[0], row);
         case StepKind::gain:
             for (double &pixel : row)
-                pixel /= p[0];
+                pixel /= first;
             break;
         case StepKind::pixel_mask:
             for (size_t i = 0; i < row.size(); ++i) {
@@ -253,6 +254,17 @@ class PixelSteps {
 
 constexpr int64_t block_size = 512;
 
+template <class From, class To>
+void convert(const From *from, int64_t from_stride, size_t n, To *__restrict to,
+             int64_t to_stride) {
+    if (from_stride == 1 && to_stride == 1)
+        for (size_t i = 0; i < n; ++i)
+            to[i] = static_cast<To>(from[i]);
+    else
+        for (int64_t i = 0; i < static_cast<int64_t>(n); ++i)
+            to[i * to_stride] = static_cast<To>(from[i * from_stride]);
+}
+
 // Runs steps over all pixels, in bands of rows; adds up what `run` returns.
 template <class T, class Run> int64_t for_each_block(View<T> image, int threads, const Run &run) {
     const int64_t bands = std::clamp<int64_t>(threads, 1, image.ny);
@@ -264,12 +276,9 @@ template <class T, class Run> int64_t for_each_block(View<T> image, int threads,
             for (int64_t x = 0; x < image.nx; x += block_size) {
                 const auto n = static_cast<size_t>(std::min(block_size, image.nx - x));
                 T *first = &image(x, y);
-                for (size_t i = 0; i < n; ++i)
-                    pixels[i] =
-                        static_cast<double>(first[static_cast<int64_t>(i) * image.stride_x]);
+                convert(first, image.stride_x, n, pixels.data(), 1);
                 count += run(Block{x, y, std::span(pixels).first(n), std::span(scratch).first(n)});
-                for (size_t i = 0; i < n; ++i)
-                    first[static_cast<int64_t>(i) * image.stride_x] = static_cast<T>(pixels[i]);
+                convert(pixels.data(), 1, n, first, image.stride_x);
             }
         counts[static_cast<size_t>(band)] = count;
     });

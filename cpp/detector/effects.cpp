@@ -2,7 +2,10 @@
 #include "detector/effects.hpp"
 
 #include "numerics/dispatch.hpp"
+#include "numerics/elementary.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -51,6 +54,43 @@ double invert(std::span<const double> coefficients, double wanted) {
     return std::fabs(at.value - wanted) <= 1e-12 * std::fabs(wanted) ? x : nan;
 }
 
+// Pixels go through vector instructions in groups of one size, the last one filled up, so that the
+// bits of a pixel do not depend on its place in a row.
+constexpr size_t lanes = 16;
+using Group = std::array<double, lanes>;
+
+[[gnu::always_inline]] inline Group load(std::span<const double> row, size_t begin) {
+    Group group;
+    if (row.size() - begin >= lanes) {
+        std::copy_n(row.data() + begin, lanes, group.begin());
+    } else {
+        group.fill(1);
+        std::copy(row.begin() + static_cast<std::ptrdiff_t>(begin), row.end(), group.begin());
+    }
+    return group;
+}
+
+[[gnu::always_inline]] inline void store(const Group &group, size_t begin, std::span<double> row) {
+    if (row.size() - begin >= lanes)
+        std::copy_n(group.begin(), lanes, row.data() + begin);
+    else
+        std::copy_n(group.begin(), row.size() - begin, row.data() + begin);
+}
+
+// (x / base)^exponent for x > 0 while that is within e and 1 / e, else 0; whether all were.
+WFPSF_VECTORISED bool powers_of_ratios(double exponent, double base, const Group &x, Group &power) {
+    constexpr double tiny = std::numeric_limits<double>::min(),
+                     huge = std::numeric_limits<double>::max();
+    uint64_t left = 0;
+    for (size_t i = 0; i < lanes; ++i) {
+        const double ratio = x[i] / base, log_power = exponent * branchless_log(ratio);
+        const bool good = (ratio >= tiny) & (ratio <= huge) & (std::fabs(log_power) <= 1);
+        power[i] = good ? branchless_exp(log_power) : 0;
+        left |= good ? 0 : 1;
+    }
+    return left == 0;
+}
+
 // A difference from itself is 0, but of what is not finite NaN.
 template <class T> [[gnu::always_inline]] inline int64_t count_any(View<const T> image) {
     int64_t count = 0;
@@ -76,7 +116,7 @@ WFPSF_VECTORISED int64_t count_not_finite(View<const double> image) {
     return count_any(image);
 }
 
-void quantize(double unit, std::span<double> row) {
+WFPSF_VECTORISED void quantize(double unit, std::span<double> row) {
     if (unit == 1) {
         for (double &pixel : row)
             pixel = std::nearbyint(pixel);
@@ -89,14 +129,31 @@ void quantize(double unit, std::span<double> row) {
 void reciprocity_failure(double alpha, double exposure_time, double base_flux,
                          std::span<double> row) {
     const double exponent = alpha / std::numbers::ln10, base = exposure_time * base_flux;
-    for (double &pixel : row)
-        if (pixel != 0)
-            pixel = pixel < 0 ? nan : pixel * std::pow(pixel / base, exponent);
+    for (size_t begin = 0; begin < row.size(); begin += lanes) {
+        Group pixels = load(row, begin), power;
+        if (!powers_of_ratios(exponent, base, pixels, power))
+            for (size_t i = 0; i < lanes; ++i)
+                if (power[i] == 0)
+                    power[i] = pixels[i] == 0  ? 1
+                               : pixels[i] < 0 ? nan
+                                               : std::pow(pixels[i] / base, exponent);
+        for (size_t i = 0; i < lanes; ++i)
+            pixels[i] *= power[i];
+        store(pixels, begin, row);
+    }
 }
 
-void nonlinearity(std::span<const double> coefficients, std::span<double> row) {
-    for (double &pixel : row)
-        pixel = polynomial(coefficients, pixel).value;
+WFPSF_VECTORISED void nonlinearity(std::span<const double> coefficients, std::span<double> row) {
+    for (size_t begin = 0; begin < row.size(); begin += lanes) {
+        const Group x = load(row, begin);
+        Group sum{}; // of the coefficients' powers over x, by Horner's rule
+        for (size_t k = coefficients.size(); k-- > 0;)
+            for (size_t i = 0; i < lanes; ++i)
+                sum[i] = sum[i] * x[i] + coefficients[k];
+        for (size_t i = 0; i < lanes; ++i)
+            sum[i] = x[i] + x[i] * x[i] * sum[i];
+        store(sum, begin, row);
+    }
 }
 
 void nonlinearity_inverse(std::span<const double> coefficients, std::span<double> row) {
@@ -114,13 +171,19 @@ int64_t saturate(double level, std::span<double> row) {
     return count;
 }
 
-double FermiPersistence::rate(double level, double time) const {
+FermiPersistence::FermiPersistence(const Figures &figures, double time)
+    : figures_(figures), scale_(figures.A * std::pow(time / 1000, -figures.r)),
+      at_half_well_(above(figures.half_well)) {}
+
+double FermiPersistence::above(double level) const {
+    return scale_ * std::pow(level / figures_.x0, figures_.a) /
+           (std::exp(-(level - figures_.x0) / figures_.dx) + 1);
+}
+
+double FermiPersistence::rate(double level) const {
     if (!(level > 0))
         return std::isnan(level) ? level : 0;
-    const double filled = std::fmax(level, half_well);
-    const double current = A * std::pow(filled / x0, a) * std::pow(time / 1000, -r) /
-                           (std::exp(-(filled - x0) / dx) + 1);
-    return level > half_well ? current : current * level / half_well;
+    return level > figures_.half_well ? above(level) : at_half_well_ * level / figures_.half_well;
 }
 
 } // namespace wfpsf

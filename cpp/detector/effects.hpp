@@ -33,9 +33,20 @@ int64_t count_not_finite(View<const double> image);
 // A trap model of past exposures: the current (e-/s) a time after a pixel held `level` electrons.
 // Above half_well A (level / x0)^a (time / 1000 s)^-r / (exp(-(level - x0) / dx) + 1); below,
 // linear in the level, to 0 at 0.
-struct FermiPersistence {
-    double A, x0, dx, a, r, half_well;
-    double rate(double level, double time) const;
+class FermiPersistence {
+  public:
+    struct Figures {
+        double A, x0, dx, a, r, half_well;
+    };
+
+    FermiPersistence(const Figures &figures, double time);
+    double rate(double level) const;
+
+  private:
+    double above(double level) const;
+
+    Figures figures_;
+    double scale_, at_half_well_;
 };
 
 } // namespace wfpsf

@@ -19,7 +19,7 @@ struct RandomSource {
 // Neighbours share the two numbers that one transform of Box and Muller makes.
 void fill_normal(const RandomSource &source, int64_t x, int64_t y, int64_t count, double *normal);
 
-// Replaces means by Poisson numbers: products of uniform numbers below 10, the transformed
+// Replaces means by Poisson numbers: inversion of the cumulative law below 24, the transformed
 // rejection PTRS of Hoermann 1993 above. Means that are not positive, or not finite, stay.
 void draw_poisson(const RandomSource &source, int64_t x, int64_t y, int64_t count, double *means);
 

@@ -207,6 +207,69 @@ TEST(Chain, VarianceAfterPoissonIpcAndReadNoiseIsTheClosedForm) {
                 5 * std::sqrt(2.2 / count));
 }
 
+// After an exposure of e0 electrons and one of e1 before it.
+double left_behind(const Chain &chain, double e0, double e1) {
+    Image image(PixelType::float64, 1, 1), latest(PixelType::float64, 1, 1),
+        earlier(PixelType::float64, 1, 1);
+    std::get<View<double>>(latest.pixels())(0, 0) = e0;
+    std::get<View<double>>(earlier.pixels())(0, 0) = e1;
+    const PreviousImage previous[] = {std::as_const(latest).pixels(),
+                                      std::as_const(earlier).pixels()};
+    chain.run({.previous = previous}, image);
+    return pixel(image, 0, 0);
+}
+
+TEST(Chain, LinearPersistenceIsASharePerExposure) {
+    const Chain chain = chain_of(StepKind::persistence_linear, {0.01, 0.003, 0.001});
+    EXPECT_NEAR(left_behind(chain, 5e4, 2e4), 0.01 * 5e4 + 0.003 * 2e4, 1e-11);
+    EXPECT_EQ(left_behind(chain, 0, 0), 0);
+    EXPECT_TRUE(std::isnan(left_behind(chain, 1, NAN)));
+}
+
+TEST(Chain, FermiPersistenceIsItsClosedForm) {
+    constexpr double A = 0.017, x0 = 60000, dx = 50000, a = 0.045, r = 1, half = 50000,
+                     time = 139.8;
+    const Chain chain = chain_of(StepKind::persistence_fermi, {A, x0, dx, a, r, half, time});
+    const auto truth = [&](long double level, long double exposures) -> long double {
+        const auto trapped = [&](long double x) {
+            return A * std::exp(a * std::log(x / x0)) / (1 + std::exp((x0 - x) / dx)) * time *
+                   std::pow(exposures * time / 1000, -r);
+        };
+        return level > half ? trapped(level) : trapped(half) / half * level;
+    };
+    for (const double e0 : {0.0, 1.0, 4e4, half, 5.1e4, 9e4, 1e6})
+        for (const double e1 : {0.0, 3e4, 8e4}) {
+            const auto wanted = static_cast<double>(truth(e0, 0.5L) + truth(e1, 1.5L));
+            EXPECT_NEAR(left_behind(chain, e0, e1), wanted, 1e-14 * wanted) << e0 << ", " << e1;
+        }
+    EXPECT_EQ(left_behind(chain, -5, -1e5), 0);
+    EXPECT_TRUE(std::isnan(left_behind(chain, NAN, 0)));
+}
+
+// Rounding errors are white and uniform; correction amplifies them as it does any white noise.
+TEST(Chain, QuantisationNoiseGoesThroughTheCorrection) {
+    constexpr int64_t n = 600;
+    const IpcKernel correction = IpcKernel::parametric(0.02, 0.002, 0.001).neumann_correction(3);
+    Image image(PixelType::float64, n, n);
+    const View<double> pixels = std::get<View<double>>(image.pixels());
+    chain_of(StepKind::read_noise, {100}).run({.random = {.seed = 23}}, image);
+    Plane<double> error(n, n), corrected(n, n);
+    for (int64_t y = 0; y < n; ++y)
+        for (int64_t x = 0; x < n; ++x)
+            error(x, y) = -pixels(x, y);
+    chain_of(StepKind::quantisation, {1}).run({}, image);
+    for (int64_t y = 0; y < n; ++y)
+        for (int64_t x = 0; x < n; ++x)
+            error(x, y) += pixels(x, y);
+    convolve(correction, std::as_const(error).view(), {Edge::wrap}, corrected.view());
+    double squares = 0;
+    for (int64_t y = 0; y < n; ++y)
+        for (int64_t x = 0; x < n; ++x)
+            squares += corrected(x, y) * corrected(x, y);
+    const double variance = correction.sum_of_squares() / 12;
+    EXPECT_NEAR(squares / (n * n), variance, 5 * variance * std::sqrt(2.2 / (n * n)));
+}
+
 TEST(Effects, NonlinearityOfAnyOrderIsUndone) {
     const std::vector<double> coefficients = {-6e-7, 2e-13, -3e-19};
     for (const double in : {-1e4, -3.0, 0.0, 1e-3, 7.0, 1e3, 5e4, 2e5, 4e5}) {
