@@ -44,8 +44,7 @@ wfpsf_status report(const Solution &solution, const SolveLimits &limits, double 
 }
 
 int64_t not_finite_in(const wfpsf_image *image) {
-    return std::visit([](auto pixels) { return count_not_finite(pixels); },
-                      image->image.pixels());
+    return std::visit([](auto pixels) { return count_not_finite(pixels); }, image->image.pixels());
 }
 
 void copy_record(const wfpsf_image *from, wfpsf_image *to) {
