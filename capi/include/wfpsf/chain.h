@@ -149,8 +149,10 @@ WFPSF_EXPORT const char *wfpsf_step_name(int32_t step);
  *           image             native pixels: oversampling 1
  *           previous_count    exposures before this one, >= 0
  *           previous          their images of charge, the latest first, of the image's size,
- * sharing no memory with it; may be NULL if there are none options           SEED, STREAM,
- * ORIGIN_X, ORIGIN_Y, NOISE, FORCE, THREADS (the bits are the same for any number) Returned: image
+ *                             sharing no memory with it; may be NULL if there are none
+ *           options           SEED, STREAM, ORIGIN_X, ORIGIN_Y, NOISE, FORCE, THREADS (the bits are
+ *                             the same for any number)
+ * Returned: image             its pixels and record
  *           not_finite        pixels that are NaN or infinite at the end; may be NULL
  *           saturated         pixels that saturated; may be NULL
  * Status:   ERROR_NULL, ERROR_ARGUMENT, ERROR_SIZE, ERROR_RANGE, ERROR_OVERLAP,

@@ -96,10 +96,10 @@ WFPSF_EXPORT wfpsf_status wfpsf_design_set_zernikes(wfpsf_design *design, int32_
  *
  * Given:    sca           1..1000
  *           x, y          five each, pixels of the detector, the first one's centre at (0, 0):
- * first a point near the centre, then one towards each corner, in any order count         of
- * coefficients at each point, 0..231 coefficients  5 count numbers, point by point, each as in
- * wfpsf_design_set_zernikes() Status:   ERROR_NULL, ERROR_RANGE, ERROR_NOT_FINITE, ERROR_ARGUMENT
- * (points not so placed)
+ *                         first a point near the centre, then one towards each corner, in any order
+ *           count         of coefficients at each point, 0..231
+ *           coefficients  5 count numbers, point by point, each as in wfpsf_design_set_zernikes()
+ * Status:   ERROR_NULL, ERROR_RANGE, ERROR_NOT_FINITE, ERROR_ARGUMENT (points not so placed)
  */
 WFPSF_EXPORT wfpsf_status wfpsf_design_set_field(wfpsf_design *design, int32_t sca, const double *x,
                                                  const double *y, int64_t count,
@@ -126,8 +126,8 @@ WFPSF_EXPORT wfpsf_status wfpsf_design_add_band(wfpsf_design *design, const char
  *
  * Returned: out     the handle, to be freed with wfpsf_instrument_destroy(); NULL on failure
  * Status:   ERROR_NULL, ERROR_NO_MEMORY, ERROR_ARGUMENT (telescope or detector not set, field
- * points on some detectors only, struts that leave no light), ERROR_RANGE (aberrations of an SCA
- *           that there is not)
+ *           points on some detectors only, struts that leave no light), ERROR_RANGE (aberrations of
+ *           an SCA that there is not)
  */
 WFPSF_EXPORT wfpsf_status wfpsf_instrument_create_from_design(const wfpsf_design *design,
                                                               wfpsf_instrument **out);

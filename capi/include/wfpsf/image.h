@@ -129,7 +129,8 @@ WFPSF_EXPORT wfpsf_status wfpsf_image_copy(const wfpsf_image *from, wfpsf_image 
  *
  * Given:    path        of the file
  *           hdu         name of the extension, or its number counted from 0 as text; NULL: the
- * first image found pixel_type  type to convert to; 0: float32 for BITPIX -32, 8, 16, else float64
+ *                       first image found
+ *           pixel_type  type to convert to; 0: float32 for BITPIX -32, 8, 16, else float64
  * Returned: out         the handle; NULL on failure
  * Status:   ERROR_NULL, ERROR_ARGUMENT, ERROR_FILE_OPEN, ERROR_FILE_FORMAT, ERROR_NO_MEMORY
  */
@@ -143,7 +144,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_image_read_fits(const char *path, const char *hd
  * Given:    path     of the file
  *           options  WFPSF_OPTION_FITS_OVERWRITE
  * Status:   ERROR_NULL, ERROR_SIZE (an empty image), ERROR_FILE_WRITE (also when the file exists
- * and may not be overwritten)
+ *           and may not be overwritten)
  */
 WFPSF_EXPORT wfpsf_status wfpsf_image_write_fits(const wfpsf_image *image, const char *path,
                                                  const wfpsf_options *options);
@@ -159,8 +160,8 @@ WFPSF_EXPORT wfpsf_status wfpsf_image_write_fits(const wfpsf_image *image, const
  * Returned: out         pixels of an image of size (n_x nx, n_y ny); its oversampling becomes n_x
  *                       times the inputs' if n_x = n_y, else is left alone
  * Status:   ERROR_NULL, ERROR_RANGE (n_x or n_y outside 1..4096, an offset that is none of the n_x
- * or n_y equal steps within 1e-8), ERROR_NOT_FINITE, ERROR_ARGUMENT (a convention that is none, two
- * images of one offset), ERROR_SIZE, ERROR_TYPE, ERROR_OVERLAP
+ *           or n_y equal steps within 1e-8), ERROR_NOT_FINITE, ERROR_ARGUMENT (a convention that is
+ *           none, two images of one offset), ERROR_SIZE, ERROR_TYPE, ERROR_OVERLAP
  */
 WFPSF_EXPORT wfpsf_status wfpsf_image_interleave(int64_t n_x, int64_t n_y,
                                                  const wfpsf_image *const *images, const double *dx,

@@ -66,8 +66,8 @@ enum { WFPSF_MOMENTS_PROPERTY_LIST(WFPSF_MOMENTS_PROPERTY_ENUM) };
  * Returned: out      the result, also when the measurement fails: it then holds the last iterate.
  *                    NULL only if the arguments are not valid or memory runs out
  * Status:   OK; WARNING_NOT_CONVERGED, WARNING_RESTARTED, WARNING_NEAR_DEGENERATE,
- * WARNING_UNDERSAMPLED; ERROR_MOMENTS_* or ERROR_NOT_FINITE (a NaN under the weight) with a result;
- *           ERROR_NULL, ERROR_NO_MEMORY without
+ *           WARNING_UNDERSAMPLED; ERROR_MOMENTS_* or ERROR_NOT_FINITE (a NaN under the weight) with
+ *           a result; ERROR_NULL, ERROR_NO_MEMORY without
  */
 WFPSF_EXPORT wfpsf_status wfpsf_moments_measure(const wfpsf_image *image,
                                                 const wfpsf_options *options, wfpsf_moments **out);
@@ -78,9 +78,9 @@ WFPSF_EXPORT wfpsf_status wfpsf_moments_measure(const wfpsf_image *image,
  *
  * Given:    missing   image of the same size, not 0 where a pixel is missing; may be NULL
  *           variance  image of the same size: variance of each pixel's noise, independent from
- * pixel to pixel. May be NULL: MOMENTS_VARIANCE counts Status:   as for wfpsf_moments_measure();
- * ERROR_SIZE (sizes differ); ERROR_RANGE, ERROR_NOT_FINITE (a variance that is negative or not
- * finite): with a result that has no covariance
+ *                     pixel to pixel. May be NULL: MOMENTS_VARIANCE counts
+ * Status:   as for wfpsf_moments_measure(); ERROR_SIZE (sizes differ); ERROR_RANGE, ERROR_NOT_FINITE
+ *           (a variance that is negative or not finite): with a result that has no covariance
  */
 WFPSF_EXPORT wfpsf_status wfpsf_moments_measure_masked(const wfpsf_image *image,
                                                        const wfpsf_image *missing,
@@ -167,7 +167,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_moments_covariance(const wfpsf_moments *moments,
  * Returned: out      a result whose properties CENTROID_X to FLUX are derivatives; the others are
  *                    NaN. E and BETA have none where e = 0
  * Status:   ERROR_NULL; ERROR_SIZE; ERROR_ARGUMENT (moments is no solution, or a derivative
- * itself); ERROR_NOT_FINITE; ERROR_NO_MEMORY
+ *           itself); ERROR_NOT_FINITE; ERROR_NO_MEMORY
  */
 WFPSF_EXPORT wfpsf_status wfpsf_moments_differentiate(const wfpsf_moments *moments,
                                                       const wfpsf_image *image,

@@ -66,7 +66,7 @@ enum {
  *           options  EPS
  * Returned: out      the handle; NULL on failure
  * Status:   ERROR_NULL, ERROR_NO_MEMORY; WARNING_NOT_CERTIFIED if the error estimate stays above
- * EPS
+ *           EPS
  */
 WFPSF_EXPORT wfpsf_status wfpsf_otf_create(const wfpsf_psf *psf, const wfpsf_options *options,
                                            wfpsf_otf **out);

@@ -61,7 +61,7 @@ enum { WFPSF_PSF_PROPERTY_LIST(WFPSF_PSF_PROPERTY_ENUM) };
  *           axis_x, axis_y  the sample at which the optical axis passes, the first one's centre at
  *                           (0, 0); -1e6..1e6
  * Status:   ERROR_NULL, ERROR_SIZE, ERROR_RANGE, ERROR_NOT_FINITE, ERROR_NO_MEMORY; the options
- * then keep their map
+ *           then keep their map
  */
 WFPSF_EXPORT wfpsf_status wfpsf_options_set_opd(wfpsf_options *options, const wfpsf_image *map,
                                                 double scale_m, double axis_x, double axis_y);
@@ -79,7 +79,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_options_set_opd(wfpsf_options *options, const wf
  * Status:   ERROR_NULL, ERROR_RANGE, ERROR_NOT_FINITE, ERROR_NO_MEMORY;
  *           ERROR_ARGUMENT if the pupil depends on the band (wfpsf_psf_create_in_band());
  *           ERROR_CANCELLED, ERROR_MEMORY_LIMIT; WARNING_NOT_CERTIFIED if the error estimate stays
- * above EPS
+ *           above EPS
  */
 WFPSF_EXPORT wfpsf_status wfpsf_psf_create(const wfpsf_instrument *instrument, int32_t sca,
                                            double wavelength_nm, const wfpsf_options *options,
@@ -207,7 +207,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_psf_draw_memory(const wfpsf_psf *psf, double x, 
  *           options     THREADS, which changes the time and no bit of the result; FORCE
  * Returned: image       pixels and record; untouched on failure, unless memory runs out on the way
  * Status:   ERROR_NULL, ERROR_SIZE, ERROR_NOT_FINITE, ERROR_ALREADY_APPLIED, ERROR_ARGUMENT
- * (another pixel scale), ERROR_NO_MEMORY
+ *           (another pixel scale), ERROR_NO_MEMORY
  */
 WFPSF_EXPORT wfpsf_status wfpsf_psf_add_stars(const wfpsf_psf *psf, int64_t count, const double *x,
                                               const double *y, const double *flux,
