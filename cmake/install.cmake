@@ -2,8 +2,15 @@
 # Consumers need nothing else; what the library stands on is linked into it or by it.
 include(CMakePackageConfigHelpers)
 
+# The component `library` is what programs run with; all else is what they are built with.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
+
 install(TARGETS wfpsf EXPORT wfpsf-targets
-  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development)
+if(WFPSF_BUILD_STATIC)
+  install(TARGETS wfpsf_static EXPORT wfpsf-targets
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/capi/include/wfpsf
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} FILES_MATCHING PATTERN "*.h")
 install(FILES ${PROJECT_BINARY_DIR}/capi/include/wfpsf/version.h
@@ -12,9 +19,8 @@ install(FILES ${PROJECT_BINARY_DIR}/capi/include/wfpsf/version.h
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/wfpsf)
 install(EXPORT wfpsf-targets NAMESPACE wfpsf:: FILE wfpsf-config.cmake
   DESTINATION ${package_folder})
-# Until 1.0 a minor version may break the interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/wfpsf-config-version.cmake
-  COMPATIBILITY SameMinorVersion)
+  COMPATIBILITY SameMajorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/wfpsf-config-version.cmake DESTINATION ${package_folder})
 
 # The prefix is found from the .pc file's own place, so that the tree can be moved.

@@ -7,9 +7,10 @@ set -euo pipefail
 packages=(
     cmake ninja-build gcc g++ gfortran pkg-config binutils python3
     libeigen3-dev libfftw3-dev libcfitsio-dev zlib1g-dev librandom123-dev libgd-dev libgtest-dev
+    dpkg-dev file
 )
 case "${1:-}" in
-    --lint) packages+=(clang-format clang-tidy) ;;
+    --lint) packages+=(clang-format clang-tidy abigail-tools lintian) ;;
     "") ;;
     *) printf 'usage: %s [--lint]\n' "$0" >&2; exit 2 ;;
 esac

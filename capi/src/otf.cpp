@@ -45,7 +45,7 @@ wfpsf_status wfpsf_otf_create(const wfpsf_psf *psf, const wfpsf_options *options
         const PsfSettings &settings = psf->psf.settings();
         const double eps = option(options, WFPSF_OPTION_EPS);
         *out = new wfpsf_otf{Otf(psf->psf.components(), settings.pixel_scale, settings.mirrored,
-                                 eps, settings.blur)};
+                                 eps, settings.blur, settings.pixel_response)};
         const double estimate = (*out)->otf.error_estimate();
         if (estimate <= eps)
             return WFPSF_OK;

@@ -180,7 +180,7 @@ wfpsf_status wfpsf_psf_draw(const wfpsf_psf *psf, double x, double y, double flu
         const wfpsf_status status =
             draw(*psf, checked_star(x, y, flux), Psf::Drawing::overwrites, options, image->image);
         image->image.set_applied(0);
-        record_light(psf->pixel_scale_arcsec, image->image);
+        record_light(psf->psf.settings(), psf->pixel_scale_arcsec, image->image);
         return status;
     });
 }
@@ -190,10 +190,10 @@ wfpsf_status wfpsf_psf_add_bright_star(const wfpsf_psf *psf, double x, double y,
     return guarded([&] {
         require_pointer(psf, "psf");
         require_pointer(image, "image");
-        require_light(psf->pixel_scale_arcsec, image->image, options);
+        require_light(psf->psf.settings(), psf->pixel_scale_arcsec, image->image, options);
         const wfpsf_status status =
             draw(*psf, checked_star(x, y, flux), Psf::Drawing::adds, options, image->image);
-        record_light(psf->pixel_scale_arcsec, image->image);
+        record_light(psf->psf.settings(), psf->pixel_scale_arcsec, image->image);
         return status;
     });
 }
@@ -222,12 +222,12 @@ wfpsf_status wfpsf_psf_add_stars(const wfpsf_psf *psf, int64_t count, const doub
         require_pointer(image, "image");
         const std::vector<Star> stars = checked_stars(count, x, y, flux);
         Image &target = image->image;
-        require_light(psf->pixel_scale_arcsec, target, options);
+        require_light(psf->psf.settings(), psf->pixel_scale_arcsec, target, options);
         const auto threads = static_cast<int>(option(options, WFPSF_OPTION_THREADS));
         std::visit(
             [&](auto pixels) { psf->psf.add(stars, target.oversampling(), pixels, threads); },
             target.pixels());
-        record_light(psf->pixel_scale_arcsec, target);
+        record_light(psf->psf.settings(), psf->pixel_scale_arcsec, target);
     });
 }
 
@@ -252,9 +252,8 @@ wfpsf_status wfpsf_psf_convolve(const wfpsf_psf *psf, const wfpsf_image *galaxy,
                          target.oversampling(), pixels);
             },
             galaxy->image.pixels(), target.pixels());
-        target.set_pixel_scale_arcsec(psf->pixel_scale_arcsec);
         target.set_applied(0);
-        target.record_applied(Effect::pixel_response);
+        record_light(psf->psf.settings(), psf->pixel_scale_arcsec, target);
     });
 }
 

@@ -59,7 +59,8 @@ PsfSettings make_settings(const Instrument &instrument, bool mirrored,
             .eps = option(options, WFPSF_OPTION_EPS),
             .radius = option(options, WFPSF_OPTION_PSF_RADIUS),
             .mirrored = mirrored,
-            .blur = make_blur(instrument, options)};
+            .blur = make_blur(instrument, options),
+            .pixel_response = flag(options, WFPSF_OPTION_PIXEL_RESPONSE)};
 }
 
 FieldRule field_rule(const wfpsf_options *options) {
@@ -90,18 +91,22 @@ wfpsf_status certify(double estimate, double eps) {
     return record_error(WFPSF_WARNING_NOT_CERTIFIED, line);
 }
 
-void require_light(double pixel_scale_arcsec, const Image &image, const wfpsf_options *options) {
+void require_light(const PsfSettings &settings, double pixel_scale_arcsec, const Image &image,
+                   const wfpsf_options *options) {
     for (uint32_t bit = 1; bit <= all_effects; bit <<= 1) {
         const auto effect = static_cast<Effect>(bit);
-        if (effect != Effect::pixel_response && effect != Effect::background)
+        const bool of_light = effect == Effect::background ||
+                              (effect == Effect::pixel_response && settings.pixel_response);
+        if (!of_light)
             image.require_not_applied(effect, flag(options, WFPSF_OPTION_FORCE));
     }
     require_scale(pixel_scale_arcsec, image, "image");
 }
 
-void record_light(double pixel_scale_arcsec, Image &image) {
+void record_light(const PsfSettings &settings, double pixel_scale_arcsec, Image &image) {
     image.set_pixel_scale_arcsec(pixel_scale_arcsec);
-    image.record_applied(Effect::pixel_response);
+    if (settings.pixel_response)
+        image.record_applied(Effect::pixel_response);
 }
 
 void require_scale(double pixel_scale_arcsec, const Image &image, const char *argument) {

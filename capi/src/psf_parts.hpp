@@ -39,8 +39,9 @@ wfpsf_status certify(double estimate, double eps);
 void require_scale(double pixel_scale_arcsec, const Image &image, const char *argument);
 
 // Light is added before what the detector does to it, to pixels of the PSF's scale.
-void require_light(double pixel_scale_arcsec, const Image &image, const wfpsf_options *options);
-void record_light(double pixel_scale_arcsec, Image &image);
+void require_light(const PsfSettings &settings, double pixel_scale_arcsec, const Image &image,
+                   const wfpsf_options *options);
+void record_light(const PsfSettings &settings, double pixel_scale_arcsec, Image &image);
 
 // The caller's arrays, once they are sound.
 std::vector<Star> checked_stars(int64_t count, const double *x, const double *y,

@@ -82,14 +82,14 @@ wfpsf_status wfpsf_varying_psf_add_stars(const wfpsf_varying_psf *varying, doubl
         require_finite(y0, "y0");
         const std::vector<Star> stars = checked_stars(count, x, y, flux);
         Image &target = image->image;
-        require_light(varying->pixel_scale_arcsec, target, options);
+        require_light(varying->varying.settings(), varying->pixel_scale_arcsec, target, options);
         const auto threads = static_cast<int>(option(options, WFPSF_OPTION_THREADS));
         std::visit(
             [&](auto pixels) {
                 varying->varying.add(stars, x0, y0, target.oversampling(), pixels, threads);
             },
             target.pixels());
-        record_light(varying->pixel_scale_arcsec, target);
+        record_light(varying->varying.settings(), varying->pixel_scale_arcsec, target);
     });
 }
 

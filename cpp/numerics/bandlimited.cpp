@@ -68,6 +68,8 @@ int64_t BandlimitedInterpolator::weights(double x, double *w) const {
 }
 
 std::vector<double> BandlimitedInterpolator::averaging_filter(double width) const {
+    if (width == 0)
+        return {1};
     const int m = static_cast<int>(std::ceil(half_width_ + width / 2));
     std::vector<double> filter(static_cast<size_t>(2 * m + 1));
     const GaussLegendre rule(14);

@@ -29,7 +29,7 @@ class BandlimitedInterpolator {
     int64_t weights(double x, double *w) const;
 
     // The symmetric filter of unit steps that also averages over a window of the given width (in
-    // samples): taps f[0 .. 2m], centre f[m].
+    // samples; 0: nothing is averaged): taps f[0 .. 2m], centre f[m].
     std::vector<double> averaging_filter(double width) const;
 
   private:
@@ -48,9 +48,9 @@ enum class Outline { square, round };
 // the spectrum is as many times that of the outline, scaled to an integral of one.
 double outline_strength(Outline outline, double extent, double area);
 
-// The two filters that a native pixel's samples need: the average over `width` samples, and the
-// interpolation of what that gives. The spectrum of the intensity runs out at the band's edge: so
-// both may cut deeper into the band than for a spectrum of any shape, and are shorter.
+// The two filters that a native pixel's samples need: the average over `width` samples (0: none),
+// and the interpolation of what that gives. The spectrum of the intensity runs out at the band's
+// edge: so both may cut deeper into the band than for a spectrum of any shape, and are shorter.
 class AveragedSamples {
   public:
     // error() <= eps, where rounding allows it.

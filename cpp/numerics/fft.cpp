@@ -25,7 +25,11 @@ int64_t good_fft_length(int64_t n) {
 }
 
 std::mutex &fftw_planner_lock() {
-    static auto &lock = *new std::mutex; // outlives every thread
+    // A host may use FFTW too, on another thread: its planner then takes a lock of its own.
+    static auto &lock = *[] {
+        fftw_make_planner_thread_safe();
+        return new std::mutex; // outlives every thread
+    }();
     return lock;
 }
 

@@ -24,9 +24,9 @@ struct SeparableFilter {
     size_t half_width() const { return terms[0].x.size() / 2; }
 };
 
-// The average over a square of `width` samples and a Gaussian of the given covariance (samples^2,
-// not negative definite, not zero), for images with no frequency above `bandwidth` cycles per
-// sample. The error is about eps.
+// The average over a square of `width` samples (0: none) and a Gaussian of the given covariance
+// (samples^2, not negative definite, not zero), for images with no frequency above `bandwidth`
+// cycles per sample. The error is about eps.
 SeparableFilter blurring_filter(double bandwidth, double width, const Covariance &blur, double eps);
 
 } // namespace wfpsf

@@ -35,6 +35,8 @@ struct PsfSettings {
     // the detectors' science coordinates.
     bool mirrored = false;
     Covariance blur = {}; // of a Gaussian, native pixels^2: jitter and charge diffusion
+    // The light of a sample is the average over a native pixel, else the density at its centre.
+    bool pixel_response = true;
 };
 
 // Position in samples of an image, the first one's centre at (0, 0).
@@ -50,7 +52,9 @@ struct Field {
     explicit Field(const BandlimitedInterpolator &of) : interpolator(of) {}
     BandlimitedInterpolator interpolator;
     int64_t per_pixel = 1; // grid samples a native pixel
-    Plane<double> value;   // fraction of the light in a native pixel centred on each grid point
+    // Fraction of the light in a native pixel centred on each grid point; without pixel response,
+    // the density of the light there times a native pixel's area.
+    Plane<double> value;
     std::vector<Colour> colours; // that it is a sum of
     int64_t nodes = 0;           // of the pupil, over all wavelengths
     int64_t grid_size = 0;       // of the diffraction image that this was filtered from

@@ -25,8 +25,7 @@ ImageMaker::ImageMaker(const Optics &optics, const PsfSettings &settings,
       step_(settings.pixel_scale / static_cast<double>(per_pixel_)),
       strength_(outline_strength(optics.aperture->outline(), optics.aperture->diameter(),
                                  optics.aperture->area())),
-      samples_(bandwidth(shortest_wavelength), static_cast<double>(per_pixel_),
-               optics.aperture->outline(),
+      samples_(bandwidth(shortest_wavelength), window(), optics.aperture->outline(),
                (settings.blur.none() ? 0.8 : 0.4) * tolerance / strength_),
       filter_{{{samples_.averaging(), samples_.averaging()}}, 0}, for_diffraction_(0.2 * tolerance),
       shortest_wavelength_(shortest_wavelength) {
@@ -34,7 +33,7 @@ ImageMaker::ImageMaker(const Optics &optics, const PsfSettings &settings,
     const Covariance &blur = settings.blur;
     if (!blur.none())
         filter_ = blurring_filter(
-            bandwidth(shortest_wavelength), samples,
+            bandwidth(shortest_wavelength), window(),
             {blur.xx * samples * samples, blur.xy * samples * samples, blur.yy * samples * samples},
             0.4 * tolerance / strength_);
     const auto reach =

@@ -55,6 +55,8 @@ class ImageMaker {
     }
 
   private:
+    // What each sample is the average over, in grid samples.
+    double window() const { return settings_.pixel_response ? static_cast<double>(per_pixel_) : 0; }
     double bandwidth(double shortest_wavelength) const {
         return optics_.aperture->diameter() * step_ / shortest_wavelength;
     }

@@ -39,8 +39,8 @@ Complex mean_phase(const Wavefront &wavefront, const PupilRaster &raster, int64_
 } // namespace
 
 Otf::Otf(std::span<const Component> components, double pixel_scale, bool mirrored, double eps,
-         const Covariance &blur)
-    : mirrored_(mirrored), pixel_scale_(pixel_scale), blur_(blur) {
+         const Covariance &blur, bool pixel_response)
+    : mirrored_(mirrored), pixel_response_(pixel_response), pixel_scale_(pixel_scale), blur_(blur) {
     // All lattices together take as much memory as the largest one alone.
     const auto most =
         2 * static_cast<int64_t>(static_cast<double>(most_pixels) /
@@ -158,7 +158,8 @@ Complex Otf::effective(double kx, double ky) const {
     if (value == 0.0) // also where the squares below would overflow
         return value;
     const double x = kx * pixel_scale_, y = ky * pixel_scale_;
-    return value * sinc(x) * sinc(y) *
+    const double pixel = pixel_response_ ? sinc(x) * sinc(y) : 1;
+    return value * pixel *
            std::exp(-2 * pi * pi * (blur_.xx * x * x + 2 * blur_.xy * x * y + blur_.yy * y * y));
 }
 

@@ -29,9 +29,10 @@ class Otf {
     // `eps` bounds the error of a PSF made of the OTF, in units of its peak: the integral of the
     // OTF's error over that of the OTF. Single values have a larger error where the OTF has a kink:
     // near k = 0, and for shifts along straight edges.
-    // `pixel_scale` is the native pixel's side, radians; mirrored and blur as in PsfSettings.
+    // `pixel_scale` is the native pixel's side, radians; mirrored, blur and pixel_response as in
+    // PsfSettings.
     Otf(std::span<const Component> components, double pixel_scale, bool mirrored, double eps,
-        const Covariance &blur = {});
+        const Covariance &blur = {}, bool pixel_response = true);
 
     // By diffraction alone; k in cycles per radian. Zero beyond the cut-off.
     std::complex<double> diffraction(double kx, double ky) const;
@@ -62,7 +63,7 @@ class Otf {
     void estimate(std::span<const Component> components, int64_t n);
 
     std::vector<Lattice> lattices_;
-    bool mirrored_ = false, exact_ = true;
+    bool mirrored_ = false, pixel_response_ = true, exact_ = true;
     double pixel_scale_ = 0;
     Covariance blur_; // native pixels^2
     double cutoff_ = 0, error_ = 0, value_error_ = 0;

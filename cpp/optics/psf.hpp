@@ -25,8 +25,10 @@ class Psf {
 
     // image(i, j) = flux * (fraction of the light that a native pixel centred there receives) /
     // N^2, N = oversampling samples a native pixel; or that is added. So the sum over an infinite
-    // image is the flux, at any N. An image that reaches beyond settings().radius is drawn from its
-    // diffraction image anew, in strips. Returns an estimate of the error, of the peak pixel.
+    // image is the flux, at any N. Without pixel response the light is the density at the sample's
+    // centre times the pixel's area, whose sum is the flux if N samples it finely enough. An image
+    // that reaches beyond settings().radius is drawn from its diffraction image anew, in strips.
+    // Returns an estimate of the error, of the peak pixel.
     enum class Drawing { overwrites, adds };
     template <class T>
     double draw(const Star &star, int64_t oversampling, View<T> image,

@@ -295,6 +295,44 @@ static void test_add_stars(const wfpsf_psf *psf) {
     wfpsf_image_destroy(shared);
 }
 
+/* Without the pixel's response, which the record then does not claim. */
+static void test_pixel_response(const wfpsf_instrument *instrument) {
+    double sharp[9 * 9], fine[45 * 45], averaged[9 * 9];
+    double x = 4, y = 4, flux = 1, mean = 0;
+    wfpsf_options *options = NULL;
+    wfpsf_psf *psf = NULL, *plain = NULL;
+    wfpsf_image *image = wrap(sharp, 9, 9), *samples = wrap_strided(fine, 45, 45, 1, 45, 5);
+    CHECK_OK(wfpsf_options_create(&options));
+    CHECK_OK(wfpsf_options_set_integer(options, WFPSF_OPTION_PIXEL_RESPONSE, 0));
+    CHECK_OK(wfpsf_psf_create(instrument, 7, 1292.11, options, &psf));
+    CHECK_OK(wfpsf_psf_draw(psf, 4, 4, 1, NULL, image));
+    check_record(image, 1, 0.11, 0);
+    CHECK_OK(wfpsf_psf_add_stars(psf, 1, &x, &y, &flux, NULL, image));
+    check_record(image, 1, 0.11, 0);
+    CHECK_OK(wfpsf_image_set_record(image, 1, 0, WFPSF_EFFECT_PIXEL_RESPONSE));
+    CHECK_FAILS(WFPSF_ERROR_ALREADY_APPLIED, "pixel response",
+                wfpsf_psf_add_stars(psf, 1, &x, &y, &flux, NULL, image));
+    CHECK_FAILS(WFPSF_ERROR_ALREADY_APPLIED, "pixel response",
+                wfpsf_psf_add_bright_star(psf, 4, 4, 1, NULL, image));
+
+    /* Averaging over 5 x 5 samples is nearly the pixel's response; none is far from it. */
+    CHECK_OK(wfpsf_psf_create(instrument, 7, 1292.11, NULL, &plain));
+    CHECK_OK(wfpsf_psf_draw(psf, 22, 22, 1, NULL, samples));
+    CHECK_OK(wfpsf_image_set_record(image, 1, 0, 0));
+    CHECK_OK(wfpsf_psf_draw(plain, 4, 4, 1, NULL, image));
+    memcpy(averaged, sharp, sizeof averaged);
+    for (int j = 20; j < 25; ++j)
+        for (int i = 20; i < 25; ++i)
+            mean += fine[45 * j + i];
+    CHECK_NEAR(mean, averaged[40], 0.02 * averaged[40]);
+    CHECK(25 * fine[45 * 22 + 22] > 1.1 * averaged[40]);
+    wfpsf_options_destroy(options);
+    wfpsf_psf_destroy(psf);
+    wfpsf_psf_destroy(plain);
+    wfpsf_image_destroy(image);
+    wfpsf_image_destroy(samples);
+}
+
 /* By band and place: Roman's pupils and aberrations depend on both, C5's on neither. */
 static void test_in_band(const wfpsf_instrument *c5) {
     double one[17 * 17], other[17 * 17];
@@ -373,6 +411,7 @@ int main(void) {
     test_smallest_eps(c5);
     test_tilt(c5);
     test_in_band(c5);
+    test_pixel_response(c5);
     wfpsf_psf *psf = make_psf(c5, 1e-7, 12);
     wfpsf_instrument_destroy(c5); /* the PSF stands on its own */
     test_draw_refuses(psf);

@@ -62,6 +62,7 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_option_jitter_yy = 162
     integer(c_int32_t), parameter :: wfpsf_option_charge_diffusion = 170
     integer(c_int32_t), parameter :: wfpsf_option_mask_points = 180
+    integer(c_int32_t), parameter :: wfpsf_option_pixel_response = 190
     integer(c_int32_t), parameter :: wfpsf_option_force = 200
     integer(c_int32_t), parameter :: wfpsf_option_ipc_fill = 210
     integer(c_int32_t), parameter :: wfpsf_option_kernel_negative = 220

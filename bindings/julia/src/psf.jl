@@ -2,9 +2,8 @@
 
 const PSF_PROPERTIES = constants_of("WFPSF_PSF_")
 const PSF_OPTIONS = (:eps, :struts, :psf_radius, :piston_tilt, :frame, :field_rule, :jitter_xx,
-                     :jitter_xy, :jitter_yy, :charge_diffusion, :mask_points, :zernikes, :opd,
-                     :memory_limit,
-                     :progress)
+                     :jitter_xy, :jitter_yy, :charge_diffusion, :mask_points, :pixel_response,
+                     :zernikes, :opd, :memory_limit, :progress)
 const STAR_OPTIONS = (:threads, :force)
 const DRAW_OPTIONS = (:memory_limit, :progress)
 
@@ -25,7 +24,8 @@ order (waves rms at the instrument's reference wavelength), and `opd = (map = im
 axis_x = x, axis_y = y)`, an [`Image`](@ref) of optical path differences in metres, `s` metres from
 sample to sample, with the optical axis at sample (x, y), the first one's centre being (1, 1).
 `jitter_xx`, `jitter_xy`, `jitter_yy` (arcsec²) are the covariance of the telescope's jitter,
-`charge_diffusion` (native pixels) the standard deviation of the detector's. `progress` is a
+`charge_diffusion` (native pixels) the standard deviation of the detector's. `pixel_response = 0`
+leaves out the average over the native pixel. `progress` is a
 function that long work calls now and then with the part that is done, 0 to 1: if it returns
 `false`, the work stops with a [`WfpsfError`](@ref) of code `WFPSF_ERROR_CANCELLED`; if it throws,
 the work stops with that exception.

@@ -2,7 +2,8 @@
 
 const STUDY_TABLES = constants_of("WFPSF_STUDY_")
 const STUDY_OPTIONS = (:eps, :struts, :piston_tilt, :frame, :jitter_xx, :jitter_xy, :jitter_yy,
-                       :charge_diffusion, :memory_limit, :zernikes, :opd, :progress)
+                       :charge_diffusion, :pixel_response, :memory_limit, :zernikes, :opd,
+                       :progress)
 
 """
     Study(instrument, sca; options...)

@@ -79,8 +79,9 @@ WFPSF_EXPORT wfpsf_status wfpsf_moments_measure(const wfpsf_image *image,
  * Given:    missing   image of the same size, not 0 where a pixel is missing; may be NULL
  *           variance  image of the same size: variance of each pixel's noise, independent from
  *                     pixel to pixel. May be NULL: MOMENTS_VARIANCE counts
- * Status:   as for wfpsf_moments_measure(); ERROR_SIZE (sizes differ); ERROR_RANGE, ERROR_NOT_FINITE
- *           (a variance that is negative or not finite): with a result that has no covariance
+ * Status:   as for wfpsf_moments_measure(); ERROR_SIZE (sizes differ); ERROR_RANGE,
+ *           ERROR_NOT_FINITE (a variance that is negative or not finite): with a result that has no
+ *           covariance
  */
 WFPSF_EXPORT wfpsf_status wfpsf_moments_measure_masked(const wfpsf_image *image,
                                                        const wfpsf_image *missing,

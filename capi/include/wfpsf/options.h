@@ -49,6 +49,8 @@ enum { WFPSF_OPTION_REAL = 1, WFPSF_OPTION_INTEGER = 2 };
       "standard deviation of the Gaussian that charge diffuses over, native pixels")               \
     X(MASK_POINTS, 180, INTEGER, 0, 0, 1,                                                          \
       "1: a mask's pixels are points at their centres, not squares")                               \
+    X(PIXEL_RESPONSE, 190, INTEGER, 1, 0, 1,                                                       \
+      "1: PSFs are averaged over the native pixel; 0: they are the light at the samples' centres") \
     X(FORCE, 200, INTEGER, 0, 0, 1,                                                                \
       "1: apply an effect even to an image that records it as applied")                            \
     X(IPC_FILL, 210, REAL, 0, -1.7976931348623157e308, 1.7976931348623157e308,                     \

@@ -37,7 +37,7 @@ enum { WFPSF_OTF_PROPERTY_LIST(WFPSF_OTF_PROPERTY_ENUM) };
 /** What acts on the image. */
 enum {
     WFPSF_RESPONSE_DIFFRACTION = 1, /**< the telescope alone */
-    WFPSF_RESPONSE_EFFECTIVE = 2    /**< and pixel, jitter, diffusion: wfpsf_psf_draw() */
+    WFPSF_RESPONSE_EFFECTIVE = 2    /**< and pixel, jitter, diffusion, as in wfpsf_psf_draw() */
 };
 
 /** Where k = 0 stands in a grid of nx by ny, and where the others. */

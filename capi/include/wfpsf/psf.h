@@ -74,7 +74,8 @@ WFPSF_EXPORT wfpsf_status wfpsf_options_set_opd(wfpsf_options *options, const wf
  *           sca            1..n_sca
  *           wavelength_nm  100..100000
  *           options        EPS, STRUTS, PSF_RADIUS, PISTON_TILT, JITTER_*, CHARGE_DIFFUSION,
- *                          extra Zernikes, an OPD map, MEMORY_LIMIT and the progress function
+ *                          PIXEL_RESPONSE, extra Zernikes, an OPD map, MEMORY_LIMIT and the progress
+ *                          function
  * Returned: out            the handle; NULL on failure
  * Status:   ERROR_NULL, ERROR_RANGE, ERROR_NOT_FINITE, ERROR_NO_MEMORY;
  *           ERROR_ARGUMENT if the pupil depends on the band (wfpsf_psf_create_in_band());
@@ -155,6 +156,8 @@ WFPSF_EXPORT void wfpsf_psf_destroy(wfpsf_psf *psf);
  * Each pixel gets flux / N^2 times the fraction of the light that a native pixel centred there
  * receives, N the image's oversampling: the sum over an infinite image is the flux at any N. The
  * image's record becomes: the PSF's pixel scale, pixel response applied. Any size, odd or even.
+ * With PIXEL_RESPONSE 0 it is the light's density at the sample's centre times a native pixel's
+ * area, not averaged: for hosts that average over pixels themselves; the record says so.
  *
  * A stamp that reaches beyond the radius made in advance is drawn from its diffraction image anew:
  * nothing is folded back at any distance, the time goes with the area, and the image is made in

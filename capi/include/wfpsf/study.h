@@ -58,8 +58,8 @@ enum { WFPSF_STUDY_TABLE_LIST(WFPSF_STUDY_ENUM) };
  *           sca         1..n_sca
  *           options     EPS; STRUTS of the figures, requirements, convergence and the derivatives
  *                       that are not by IPC (the other tables have both); PISTON_TILT, FRAME,
- *                       JITTER_*, CHARGE_DIFFUSION, extra Zernikes, an OPD map, MEMORY_LIMIT and
- *                       the progress function
+ *                       JITTER_*, CHARGE_DIFFUSION, PIXEL_RESPONSE, extra Zernikes, an OPD map,
+ *                       MEMORY_LIMIT and the progress function
  * Returned: out         the handle; NULL on failure
  * Status:   ERROR_NULL, ERROR_RANGE, ERROR_NO_MEMORY, ERROR_CANCELLED, ERROR_MEMORY_LIMIT; the
  *           status of moments (ERROR_MOMENTS_*) that do not exist, for PSFs too large or too odd

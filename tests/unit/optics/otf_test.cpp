@@ -127,15 +127,21 @@ TEST(Otf, IsOneAtZeroHermitianAndZeroBeyondTheCutOff) {
     }
 }
 
-// Against the plain Fourier sum of a large stamp: signs, frame and the pixel. What the stamp does
-// not hold, a percent of the light, bounds the agreement.
+// Against the plain Fourier sum of a large stamp: signs, frame, the pixel and none. What the stamp
+// does not hold, a percent of the light, bounds the agreement.
 TEST(Otf, IsTheTransformOfThePsf) {
     const auto &roman = std::get<RomanPupil>(Instrument::get("roman-c9").pupil(3, "H158"));
-    for (const bool mirrored : {false, true}) {
-        const Covariance blur = mirrored ? Covariance{0.1, -0.04, 0.05} : Covariance{};
+    struct Case {
+        bool mirrored, pixel_response;
+        Covariance blur;
+    };
+    const Covariance skew{0.1, -0.04, 0.05}, round{0.1, 0, 0.05};
+    for (const auto &[mirrored, pixel_response, blur] :
+         {Case{false, true, {}}, Case{true, true, skew}, Case{false, false, {}},
+          Case{true, false, skew}, Case{false, false, round}}) {
         const Psf psf(make_aperture(roman), aberrated(),
-                      {wavelength, pixel_scale, 1e-6, 48, mirrored, blur});
-        const Otf otf(psf.components(), pixel_scale, mirrored, 1e-4, blur);
+                      {wavelength, pixel_scale, 1e-6, 48, mirrored, blur, pixel_response});
+        const Otf otf(psf.components(), pixel_scale, mirrored, 1e-4, blur, pixel_response);
         constexpr int64_t n = 285, oversampling = 3;
         const double step = pixel_scale / oversampling;
         Plane<double> stamp(n, n);

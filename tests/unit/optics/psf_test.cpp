@@ -105,6 +105,39 @@ TEST(Psf, AberratedSegmentsMeetABruteForceSumAtEveryTolerance) {
     }
 }
 
+// Without the pixel's response stamps hold the density of the light, native or oversampled.
+TEST(Psf, LightThatIsNotAveragedMeetsTheAiryPattern) {
+    const AnnularPupil pupil = c5().annular_pupil();
+    const double wavelength = 1292.11e-9;
+    const Intensity truth = airy(pupil, wavelength);
+    for (const double eps : {1e-2, 1e-5, 1e-8, 1e-11}) {
+        const Psf psf(make_aperture(pupil), flat(),
+                      {.wavelength = wavelength,
+                       .pixel_scale = pixel_scale,
+                       .eps = eps,
+                       .radius = 12,
+                       .pixel_response = false});
+        EXPECT_LE(psf.error_estimate(), eps);
+        for (const int64_t oversampling : {1, 3}) {
+            const int64_t size = 15 * oversampling;
+            const auto n = static_cast<double>(oversampling);
+            const double star_x = 7.3 * n, star_y = 6.9 * n, step = pixel_scale / n;
+            Plane<double> stamp(size, size);
+            psf.draw({star_x, star_y, 1}, oversampling, stamp.view());
+            double worst = 0, peak = 0;
+            for (int64_t y = 0; y < size; ++y)
+                for (int64_t x = 0; x < size; ++x) {
+                    const double wanted = step * step *
+                                          truth((static_cast<double>(x) - star_x) * step,
+                                                (static_cast<double>(y) - star_y) * step);
+                    peak = std::max(peak, wanted);
+                    worst = std::max(worst, std::abs(stamp(x, y) - wanted));
+                }
+            EXPECT_LE(worst / peak, psf.error_estimate()) << eps << ' ' << oversampling;
+        }
+    }
+}
+
 // A fully lit mask is a square aperture, whose pattern is the product of two sinc^2: the mask path
 // against a closed form, with the axis off the centre (a phase, lost in the intensity).
 TEST(Psf, SquareMaskMeetsItsSincs) {

@@ -1,0 +1,16 @@
+# Makes the Debian packages, unpacks them into a folder, and uses what they hold.
+include(${CMAKE_CURRENT_LIST_DIR}/consume.cmake)
+
+file(REMOVE_RECURSE ${WORK})
+run(${CPACK} --config ${BUILD}/CPackConfig.cmake -B ${WORK}/packages)
+file(GLOB packages ${WORK}/packages/*.deb)
+list(LENGTH packages count)
+if(NOT count EQUAL 2)
+  message(FATAL_ERROR "${count} packages, not 2: ${packages}")
+endif()
+foreach(package ${packages})
+  run(dpkg-deb --info ${package})
+  run(dpkg-deb --extract ${package} ${WORK}/root)
+endforeach()
+consume_by_cmake(${WORK}/consumer -DCMAKE_PREFIX_PATH=${WORK}/root/usr)
+consume_by_pkgconfig(${WORK}/root/usr ${WORK}/by_pkgconfig)
