@@ -386,6 +386,9 @@ Handles, arrays of numbers and functions are addresses (``c_void_p``), text is b
 import ctypes
 from ctypes import CFUNCTYPE, POINTER, c_char_p, c_double, c_int32, c_int64, c_void_p
 """.splitlines()
+    numbers = project_numbers()
+    version = ".".join(numbers[f"PROJECT_VERSION_{part}"] for part in ("MAJOR", "MINOR", "PATCH"))
+    lines += ["", f'VERSION = "{version}"  # of the headers']
     for header in headers:
         if header.constants:
             lines += ["", f"# {header.name}"]

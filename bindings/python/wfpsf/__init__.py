@@ -7,7 +7,7 @@
 ...     star = wfpsf.PSF(instrument, 7, wavelength, eps=1e-7).draw(512, 512, oversampling=32)
 >>> blurred = wfpsf.IPCKernel(0.02, 0.002).apply(star)
 >>> round(wfpsf.adaptive_moments(blurred).sigma * 110 / 32, 2)  # milliarcsec
-64.77
+64.78
 
 Arrays are ``pixels[y, x]``, of shape (ny, nx): x along the last, fast axis, y upwards. They are
 float32 or float64, of any strides, and never copied on their way to the library.

@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from ._handle import Handle, created, pointers
-from ._image import as_image, pointer_or_none, writable
+from ._image import as_image, writable
 from ._ipc import EDGES, VaryingIPC
 from ._library import lib
 from ._names import choose, constants_of, integer, numbers
@@ -42,7 +42,7 @@ class Chain(Handle):
         """The instrument's own chain; exposure time in seconds, None: the instrument's."""
         time = math.nan if exposure_time is None else exposure_time
         return cls._of(created(
-            lambda out: lib.wfpsf_chain_create_default(instrument.pointer, time, out)))
+            lambda out: lib.wfpsf_chain_create_default(instrument, time, out)))
 
     def add(self, step, *parameters, map=None):
         """Adds a step of numbers at the end, or one with a map (an image, which is copied):
@@ -50,22 +50,22 @@ class Chain(Handle):
         and their parameters; here they are strings in lower case."""
         key, given = choose(STEPS, "step", step), numbers("parameters", parameters)
         if map is None:
-            check(lib.wfpsf_chain_add(self.pointer, key, len(given), given.ctypes.data))
+            check(lib.wfpsf_chain_add(self, key, len(given), given.ctypes.data))
         else:
             map = as_image(map)
-            check(lib.wfpsf_chain_add_map(self.pointer, key, len(given), given.ctypes.data,
-                                          map.pointer))
+            check(lib.wfpsf_chain_add_map(self, key, len(given), given.ctypes.data,
+                                          map))
 
     def add_ipc(self, ipc, edge="zero", ipc_form=0):
         """Adds a kernel, or varying IPC. ``ipc_form`` is for the latter: 0: scatter, 1: gather."""
         edge = choose(EDGES, "edge", edge)
         if isinstance(ipc, VaryingIPC):
-            check(lib.wfpsf_chain_add_varying_ipc(self.pointer, ipc.pointer,
+            check(lib.wfpsf_chain_add_varying_ipc(self, ipc,
                                                   integer("ipc_form", ipc_form, 32), edge))
         elif ipc_form:
             raise ValueError("ipc_form is for varying IPC: take kernel.flipped()")
         else:
-            check(lib.wfpsf_chain_add_ipc(self.pointer, ipc.pointer, edge))
+            check(lib.wfpsf_chain_add_ipc(self, ipc, edge))
 
     @property
     def steps(self):
@@ -73,11 +73,11 @@ class Chain(Handle):
         found = []
         count, step = ctypes.c_int64(), ctypes.c_int32()
         while True:
-            check(lib.wfpsf_chain_step(self.pointer, len(found), 0, None, count, step))
+            check(lib.wfpsf_chain_step(self, len(found), 0, None, count, step))
             if step.value == 0:
                 return found
             parameters = np.empty(count.value)
-            check(lib.wfpsf_chain_step(self.pointer, len(found), parameters.size,
+            check(lib.wfpsf_chain_step(self, len(found), parameters.size,
                                        parameters.ctypes.data, None, step))
             found.append((lib.wfpsf_step_name(step).decode(), parameters.tolist()))
 
@@ -91,7 +91,7 @@ class Chain(Handle):
         image, before = writable(image), [as_image(exposure) for exposure in previous]
         not_finite, saturated = ctypes.c_int64(), ctypes.c_int64()
         with chosen(CHAIN_OPTIONS, options) as handle:
-            check(lib.wfpsf_chain_apply(self.pointer, image.pointer, len(before), pointers(before),
+            check(lib.wfpsf_chain_apply(self, image, len(before), pointers(before),
                                         handle, not_finite, saturated))
         return Counts(not_finite.value, saturated.value)
 
@@ -101,5 +101,5 @@ def add_noise(image, rms, kernel=None, **options):
     Options: seed, stream, origin_x, origin_y, threads."""
     image = writable(image)
     with chosen(NOISE_OPTIONS, options) as handle:
-        check(lib.wfpsf_noise_add(image.pointer, rms, pointer_or_none(kernel), handle))
+        check(lib.wfpsf_noise_add(image, rms, kernel, handle))
     return image

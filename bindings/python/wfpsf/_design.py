@@ -28,25 +28,25 @@ class Design(Handle):
     def set_telescope(self, *, diameter_m, obscuration, reference_wavelength_nm):
         """The mirrors. The obscuration is linear, a fraction of the diameter, 0 to 0.99; Zernike
         coefficients are given at the reference wavelength."""
-        check(lib.wfpsf_design_set_telescope(self.pointer, diameter_m, obscuration,
+        check(lib.wfpsf_design_set_telescope(self, diameter_m, obscuration,
                                              reference_wavelength_nm))
 
     def add_strut(self, azimuth_deg, width_m, offset_m=0.0):
         """One more dark bar with parallel sides, from the optical axis outwards in the direction
         ``azimuth_deg`` (from x towards y). ``offset_m`` moves it towards ``azimuth_deg + 90``."""
-        check(lib.wfpsf_design_add_strut(self.pointer, azimuth_deg, width_m, offset_m))
+        check(lib.wfpsf_design_add_strut(self, azimuth_deg, width_m, offset_m))
 
     def set_detector(self, *, pixel_scale_arcsec, n_pix_x, n_pix_y, sca_count=1):
         """The detectors (SCAs), all of one kind."""
         check(lib.wfpsf_design_set_detector(
-            self.pointer, integer("sca_count", sca_count, 32), pixel_scale_arcsec,
+            self, integer("sca_count", sca_count, 32), pixel_scale_arcsec,
             integer("n_pix_x", n_pix_x), integer("n_pix_y", n_pix_y)))
 
     def set_zernikes(self, sca, coefficients):
         """Aberrations all over a detector: Noll's order from j = 1, waves rms over the full circle
         at the reference wavelength."""
         given = numbers("coefficients", coefficients)
-        check(lib.wfpsf_design_set_zernikes(self.pointer, integer("sca", sca, 32), len(given),
+        check(lib.wfpsf_design_set_zernikes(self, integer("sca", sca, 32), len(given),
                                             given.ctypes.data))
 
     def set_field(self, sca, x, y, coefficients):
@@ -55,12 +55,12 @@ class Design(Handle):
         x, y, given = numbers("x", x), numbers("y", y), numbers("coefficients", coefficients, 2)
         if not len(x) == len(y) == len(given) == 5:
             raise ValueError("x, y and the rows of coefficients must be five")
-        check(lib.wfpsf_design_set_field(self.pointer, integer("sca", sca, 32), x.ctypes.data,
+        check(lib.wfpsf_design_set_field(self, integer("sca", sca, 32), x.ctypes.data,
                                          y.ctypes.data, given.shape[1], given.ctypes.data))
 
     def add_band(self, name, first_nm, step_nm, throughput):
         """One more filter band: its throughput (0 to 1) at equal steps of wavelength, linear in
         between and zero outside."""
         given = numbers("throughput", throughput)
-        check(lib.wfpsf_design_add_band(self.pointer, text("name", name), first_nm, step_nm,
+        check(lib.wfpsf_design_add_band(self, text("name", name), first_nm, step_nm,
                                         len(given), given.ctypes.data))

@@ -13,7 +13,7 @@ class Handle:
     It is freed when the Python object is collected, at ``close()``, which may be called twice, or
     at the end of a ``with`` block. ctypes lets other Python threads run during every call;
     immutable objects may be shared by threads, and none may be closed while another thread uses
-    it.
+    it. A closed one gives a ``ctypes.ArgumentError`` that says so.
     """
 
     _destroy = None  # the name of the function that frees it
@@ -31,8 +31,8 @@ class Handle:
         return handle
 
     @property
-    def pointer(self):
-        """The address of the C object, for calls of ``wfpsf.library``."""
+    def _as_parameter_(self):
+        """What ctypes passes to a function that is given the object, which it keeps meanwhile."""
         if not self._pointer:
             raise ValueError("the %s has been closed" % type(self).__name__)
         return self._pointer
@@ -67,13 +67,13 @@ def created(call):
 
 def pointers(handles):
     """The array of the handles' pointers. The caller keeps the handles."""
-    return (ctypes.c_void_p * len(handles))(*(handle.pointer for handle in handles))
+    return (ctypes.c_void_p * len(handles))(*(handle._as_parameter_ for handle in handles))
 
 
 def get(function, handle, key):
     """The number that ``function(handle, key, out)`` stores."""
     value = ctypes.c_double()
-    check(function(handle.pointer, key, ctypes.byref(value)))
+    check(function(handle, key, ctypes.byref(value)))
     return value.value
 
 

@@ -82,7 +82,7 @@ class Image(Handle):
         """(oversampling, pixel_scale_arcsec, applied): samples per native pixel, side of a native
         pixel (0: not stated), and the names of the effects applied."""
         oversampling, scale, applied = ctypes.c_int64(), ctypes.c_double(), ctypes.c_int32()
-        check(lib.wfpsf_image_record(self.pointer, oversampling, scale, applied))
+        check(lib.wfpsf_image_record(self, oversampling, scale, applied))
         return Record(oversampling.value, scale.value,
                       tuple(name for name, bit in EFFECTS.items() if applied.value & bit))
 
@@ -94,14 +94,14 @@ class Image(Handle):
         for name in effects:
             bits |= choose(EFFECTS, "applied", name)
         check(lib.wfpsf_image_set_record(
-            self.pointer,
+            self,
             record.oversampling if oversampling is None else integer("oversampling", oversampling),
             record.pixel_scale_arcsec if pixel_scale_arcsec is None else pixel_scale_arcsec, bits))
 
     def copy_to(self, other):
         """Copies pixels, converting their type, and the record to an image of the same shape that
         shares no memory with this one."""
-        check(lib.wfpsf_image_copy(self.pointer, writable(other).pointer))
+        check(lib.wfpsf_image_copy(self, writable(other)))
 
     def copy(self):
         other = zeros(self.shape, self.dtype)
@@ -136,10 +136,6 @@ def writable(image):
     return image
 
 
-def pointer_or_none(image):
-    return None if image is None else image.pointer
-
-
 def read_fits(path, hdu=None, dtype=None):
     """Reads a two-dimensional FITS image, plain or gzipped, with the record that this library
     wrote.
@@ -153,7 +149,7 @@ def read_fits(path, hdu=None, dtype=None):
                                                                      asked, out)))
     with source:
         code, nx, ny = ctypes.c_int32(), ctypes.c_int64(), ctypes.c_int64()
-        check(lib.wfpsf_image_shape(source.pointer, code, nx, ny))
+        check(lib.wfpsf_image_shape(source, code, nx, ny))
         image = zeros((ny.value, nx.value),
                       np.float32 if code.value == _lib.WFPSF_FLOAT32 else np.float64)
         source.copy_to(image)
@@ -165,4 +161,4 @@ def write_fits(path, image, **options):
     ``.gz``. The file appears whole or not at all. Option: fits_overwrite."""
     image = as_image(image)
     with chosen(("fits_overwrite",), options) as handle:
-        check(lib.wfpsf_image_write_fits(image.pointer, text("path", path), handle))
+        check(lib.wfpsf_image_write_fits(image, text("path", path), handle))

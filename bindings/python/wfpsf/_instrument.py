@@ -26,7 +26,7 @@ class Instrument(Handle):
 
     >>> with Instrument("roman-c9") as roman:
     ...     roman.constant("pixel_scale")
-    Quantity(value=0.11, unit='arcsec')
+    Quantity(value=0.11, unit='arcsec/pixel')
     """
 
     _destroy = "wfpsf_instrument_destroy"
@@ -34,7 +34,7 @@ class Instrument(Handle):
     def __init__(self, source="wfirst-afta-c5"):
         if isinstance(source, Design):
             self._own(created(
-                lambda out: lib.wfpsf_instrument_create_from_design(source.pointer, out)))
+                lambda out: lib.wfpsf_instrument_create_from_design(source, out)))
         else:
             self._own(created(
                 lambda out: lib.wfpsf_instrument_create(text("instrument", source), out)))
@@ -42,13 +42,13 @@ class Instrument(Handle):
     def constant(self, name):
         """(value, unit) of a constant, such as "diameter" or "pixel_scale"."""
         value, unit = ctypes.c_double(), ctypes.c_char_p()
-        check(lib.wfpsf_instrument_constant(self.pointer, text("name", name), value, unit))
+        check(lib.wfpsf_instrument_constant(self, text("name", name), value, unit))
         return Quantity(value.value, unit.value.decode())
 
     def _names(self, name_of):
         found = []
         while True:
-            name = name_of(self.pointer, len(found))
+            name = name_of(self, len(found))
             if name is None:
                 return found
             found.append(name.decode())
@@ -68,7 +68,7 @@ class Instrument(Handle):
         band, from the tabulated throughput, or by the rule "paper" from the same table thinned as
         for Table 1 of Kannawadi et al. (2016)."""
         blue, red, effective = ctypes.c_double(), ctypes.c_double(), ctypes.c_double()
-        check(lib.wfpsf_instrument_band(self.pointer, text("band", name),
+        check(lib.wfpsf_instrument_band(self, text("band", name),
                                         choose(BAND_RULES, "rule", rule), blue, red, effective))
         return Band(blue.value, red.value, effective.value)
 
@@ -77,7 +77,7 @@ class Instrument(Handle):
         tabulated points, zero outside."""
         wavelengths = np.array(wavelength_nm, dtype=np.float64, order="C")
         values = np.empty_like(wavelengths)
-        check(lib.wfpsf_instrument_throughput(self.pointer, text("band", band), values.size,
+        check(lib.wfpsf_instrument_throughput(self, text("band", band), values.size,
                                               wavelengths.ctypes.data, values.ctypes.data))
         return values[()]
 
@@ -85,9 +85,9 @@ class Instrument(Handle):
         """Aberrations at the centre of detector ``sca`` in Noll's order, element j - 1 being the
         coefficient of Z_j; waves rms over the full circle at the constant "zemax_wavelength"."""
         count, sca = ctypes.c_int64(), integer("sca", sca, 32)
-        check(lib.wfpsf_instrument_zernikes(self.pointer, sca, 0, None, count))
+        check(lib.wfpsf_instrument_zernikes(self, sca, 0, None, count))
         coefficients = np.empty(count.value)
-        check(lib.wfpsf_instrument_zernikes(self.pointer, sca, coefficients.size,
+        check(lib.wfpsf_instrument_zernikes(self, sca, coefficients.size,
                                             coefficients.ctypes.data, None))
         return coefficients
 
@@ -102,8 +102,8 @@ class Instrument(Handle):
         mask = zeros((ny, nx))
         scale, axis_x, axis_y = ctypes.c_double(), ctypes.c_double(), ctypes.c_double()
         with chosen(("struts",), options) as handle:
-            check(lib.wfpsf_instrument_pupil(self.pointer, text("band", band),
-                                             integer("sca", sca, 32), handle, mask.pointer, scale,
+            check(lib.wfpsf_instrument_pupil(self, text("band", band),
+                                             integer("sca", sca, 32), handle, mask, scale,
                                              axis_x, axis_y))
         return Pupil(mask, scale.value, axis_x.value, axis_y.value)
 
@@ -111,13 +111,13 @@ class Instrument(Handle):
         """Zodiacal light in e-/s/arcsec^2 at ecliptic coordinates in degrees, the longitude from
         the Sun."""
         level = ctypes.c_double()
-        check(lib.wfpsf_sky_level(self.pointer, text("band", band), longitude, latitude, level))
+        check(lib.wfpsf_sky_level(self, text("band", band), longitude, latitude, level))
         return level.value
 
     def sky_background(self, band, longitude, latitude, *, exposure_time, pixel_area):
         """Zodiacal, stray and thermal background of a pixel (area in arcsec^2) in an exposure (s),
         electrons."""
         electrons = ctypes.c_double()
-        check(lib.wfpsf_sky_background(self.pointer, text("band", band), longitude, latitude,
+        check(lib.wfpsf_sky_background(self, text("band", band), longitude, latitude,
                                        exposure_time, pixel_area, electrons))
         return electrons.value

@@ -43,7 +43,7 @@ def interleave(images, dx, dy, out=None, convention="detector"):
            else writable(out))
     check(lib.wfpsf_image_interleave(len(rows[0]), len(rows), pointers(flat), dx.ctypes.data,
                                      dy.ctypes.data, choose(DITHERS, "convention", convention),
-                                     out.pointer))
+                                     out))
     return out
 
 
@@ -56,6 +56,6 @@ def deinterleave(image, dx, dy, convention="detector"):
     n_y, n_x = dx.shape
     ny, nx = image.shape
     flat = [zeros((ny // n_y, nx // n_x), image.dtype) for _ in range(n_x * n_y)]
-    check(lib.wfpsf_image_deinterleave(image.pointer, n_x, n_y, dx.ctypes.data, dy.ctypes.data,
+    check(lib.wfpsf_image_deinterleave(image, n_x, n_y, dx.ctypes.data, dy.ctypes.data,
                                        choose(DITHERS, "convention", convention), pointers(flat)))
     return [flat[row * n_x:(row + 1) * n_x] for row in range(n_y)]

@@ -6,7 +6,7 @@ import ctypes
 import numpy as np
 
 from ._handle import Handle, created, get, pointers
-from ._image import as_image, pointer_or_none, writable, zeros
+from ._image import as_image, writable, zeros
 from ._library import lib
 from ._names import address, choose, constants_of, integer, numbers, text
 from ._options import chosen
@@ -57,8 +57,8 @@ class _IPC(Handle):
                         image.dtype)
         out = writable(out)
         with chosen(APPLY_OPTIONS, options) as handle:
-            check(getattr(lib, self._apply)(self.pointer, image.pointer,
-                                            choose(EDGES, "edge", edge), handle, out.pointer, None))
+            check(getattr(lib, self._apply)(self, image,
+                                            choose(EDGES, "edge", edge), handle, out, None))
         return out
 
     def correct(self, image, out=None, edge="zero", **options):
@@ -72,7 +72,7 @@ class _IPC(Handle):
         passes, not_finite = ctypes.c_int64(), ctypes.c_int64()
         with chosen(CORRECT_OPTIONS, options) as handle:
             check(getattr(lib, self._correct)(
-                self.pointer, image.pointer, choose(EDGES, "edge", edge), handle, out.pointer,
+                self, image, choose(EDGES, "edge", edge), handle, out,
                 residual, noise, passes, not_finite))
         return Correction(out, residual.value, noise.value, passes.value, not_finite.value)
 
@@ -111,7 +111,7 @@ class IPCKernel(_IPC):
     def default(cls, instrument):
         """The instrument's own."""
         return cls._of(created(
-            lambda out: lib.wfpsf_ipc_kernel_create_default(instrument.pointer, out)))
+            lambda out: lib.wfpsf_ipc_kernel_create_default(instrument, out)))
 
     @classmethod
     def wfc3(cls):
@@ -134,27 +134,27 @@ class IPCKernel(_IPC):
         order = integer("order", order)
         if order == 1:
             return self._of(created(
-                lambda out: lib.wfpsf_ipc_kernel_create_correction(self.pointer, out)))
+                lambda out: lib.wfpsf_ipc_kernel_create_correction(self, out)))
         return self._of(created(
-            lambda out: lib.wfpsf_ipc_kernel_create_neumann(self.pointer, order, out)))
+            lambda out: lib.wfpsf_ipc_kernel_create_neumann(self, order, out)))
 
     def flipped(self):
         """K(-d): convolution with it is correlation with K."""
-        return self._of(created(lambda out: lib.wfpsf_ipc_kernel_create_flipped(self.pointer, out)))
+        return self._of(created(lambda out: lib.wfpsf_ipc_kernel_create_flipped(self, out)))
 
     def then(self, second):
         """One kernel that does what this one does and then ``second``, image borders aside."""
         return self._of(created(
-            lambda out: lib.wfpsf_ipc_kernel_create_composed(self.pointer, second.pointer, out)))
+            lambda out: lib.wfpsf_ipc_kernel_create_composed(self, second, out)))
 
     def autocorrelation(self):
         """The covariance, by lag, of white noise of variance 1 after the kernel."""
         return self._of(created(
-            lambda out: lib.wfpsf_ipc_kernel_create_autocorrelation(self.pointer, out)))
+            lambda out: lib.wfpsf_ipc_kernel_create_autocorrelation(self, out)))
 
     def _shape(self):
         nx, ny = ctypes.c_int64(), ctypes.c_int64()
-        check(lib.wfpsf_ipc_kernel_taps(self.pointer, 0, None, nx, ny))
+        check(lib.wfpsf_ipc_kernel_taps(self, 0, None, nx, ny))
         return ny.value, nx.value
 
     def _reach(self):
@@ -164,7 +164,7 @@ class IPCKernel(_IPC):
     def taps(self):
         """The taps as an array: K(dx, dy) at ``[dy + ny//2, dx + nx//2]``."""
         taps = np.empty(self._shape())
-        check(lib.wfpsf_ipc_kernel_taps(self.pointer, taps.size, taps.ctypes.data, None, None))
+        check(lib.wfpsf_ipc_kernel_taps(self, taps.size, taps.ctypes.data, None, None))
         return taps
 
     def properties(self):
@@ -177,7 +177,7 @@ class IPCKernel(_IPC):
     def transform(self, frequency_x, frequency_y):
         """The sum over d of K(d) exp(-2 pi i f.d), f in cycles per pixel."""
         re, im = ctypes.c_double(), ctypes.c_double()
-        check(lib.wfpsf_ipc_kernel_transform(self.pointer, frequency_x, frequency_y, re, im))
+        check(lib.wfpsf_ipc_kernel_transform(self, frequency_x, frequency_y, re, im))
         return complex(re.value, im.value)
 
     def self_test(self, **options):
@@ -185,7 +185,7 @@ class IPCKernel(_IPC):
         kernel. Option: ipc_form."""
         response = np.empty(self._shape())
         with chosen(("ipc_form",), options) as handle:
-            check(lib.wfpsf_ipc_kernel_self_test(self.pointer, handle, response.size,
+            check(lib.wfpsf_ipc_kernel_self_test(self, handle, response.size,
                                                  response.ctypes.data))
         return response
 
@@ -196,9 +196,9 @@ class IPCKernel(_IPC):
         variance = as_image(variance)
         out = zeros(variance.shape, variance.dtype)
         with chosen(("threads",), options) as handle:
-            check(lib.wfpsf_ipc_covariance(self.pointer, variance.pointer, integer("lag_x", lag_x),
+            check(lib.wfpsf_ipc_covariance(self, variance, integer("lag_x", lag_x),
                                            integer("lag_y", lag_y), choose(EDGES, "edge", edge),
-                                           handle, out.pointer))
+                                           handle, out))
         return out
 
 
@@ -232,7 +232,7 @@ class VaryingIPC(_IPC):
                 for given in (alpha, alpha_prime, alpha_plus)]
         with chosen(("kernel_negative",), options) as handle:
             return cls._of(created(lambda out: lib.wfpsf_varying_ipc_create_maps(
-                *map(pointer_or_none, maps), handle, out)))
+                *maps, handle, out)))
 
     @classmethod
     def from_polynomials(cls, nx, ny, degree, alpha, alpha_prime=None, alpha_plus=None, **options):
@@ -253,16 +253,16 @@ class VaryingIPC(_IPC):
         """From an image of regions, numbered from 0, and a kernel for each."""
         regions, kernels = as_image(regions), list(kernels)
         return cls._of(created(lambda out: lib.wfpsf_varying_ipc_create_regions(
-            regions.pointer, len(kernels), pointers(kernels), out)))
+            regions, len(kernels), pointers(kernels), out)))
 
     def at(self, x, y):
         """The kernel of pixel (x, y), the first one being (0, 0)."""
         return IPCKernel._of(created(lambda out: lib.wfpsf_varying_ipc_kernel(
-            self.pointer, integer("x", x), integer("y", y), out)))
+            self, integer("x", x), integer("y", y), out)))
 
     def weakest(self):
         """The least stability margin, ``min |K^|``, of any pixel's kernel, and that pixel: (margin,
         x, y)."""
         margin, x, y = ctypes.c_double(), ctypes.c_int64(), ctypes.c_int64()
-        check(lib.wfpsf_varying_ipc_margin(self.pointer, margin, x, y))
+        check(lib.wfpsf_varying_ipc_margin(self, margin, x, y))
         return Weakest(margin.value, x.value, y.value)

@@ -7,6 +7,8 @@ Handles, arrays of numbers and functions are addresses (``c_void_p``), text is b
 import ctypes
 from ctypes import CFUNCTYPE, POINTER, c_char_p, c_double, c_int32, c_int64, c_void_p
 
+VERSION = "0.1.0"  # of the headers
+
 # version.h
 WFPSF_VERSION_MAJOR = 0
 WFPSF_VERSION_MINOR = 1

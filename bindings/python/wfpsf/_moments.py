@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from ._handle import Handle, get
-from ._image import as_image, pointer_or_none, zeros
+from ._image import as_image, zeros
 from ._library import lib
 from ._names import address, choose, constants_of, numbers
 from ._options import chosen
@@ -78,7 +78,7 @@ def _adaptive(image, missing, variance, strict, options):
     variance = None if variance is None else as_image(variance)
     with chosen(MOMENTS_OPTIONS, options) as handle:
         result = _Result(lambda out: lib.wfpsf_moments_measure_masked(
-            image.pointer, pointer_or_none(missing), pointer_or_none(variance), handle, out),
+            image, missing, variance, handle, out),
             strict)
     with result:
         yield result
@@ -126,7 +126,7 @@ def moments_covariance(image, names, missing=None, variance=None, **options):
         matrix = np.empty((len(keys), len(keys)))
         for i, a in enumerate(keys):
             for j, b in enumerate(keys):
-                check(lib.wfpsf_moments_covariance(result.pointer, a, b, value))
+                check(lib.wfpsf_moments_covariance(result, a, b, value))
                 matrix[i, j] = value.value
         return matrix
 
@@ -140,7 +140,7 @@ def moments_derivative(image, change, second=None, missing=None, **options):
     second = None if second is None else as_image(second)
     with _adaptive(image, missing, None, True, options) as result:
         return _copied(lambda out: lib.wfpsf_moments_differentiate(
-            result.pointer, image.pointer, change.pointer, pointer_or_none(second), out), True)
+            result, image, change, second, out), True)
 
 
 def moments_influence(image, name, missing=None, **options):
@@ -149,8 +149,8 @@ def moments_influence(image, name, missing=None, **options):
     image = as_image(image)
     with _adaptive(image, missing, None, True, options) as result:
         influence = zeros(image.shape)
-        check(lib.wfpsf_moments_influence(result.pointer, image.pointer,
-                                          choose(MOMENTS, "name", name), influence.pointer))
+        check(lib.wfpsf_moments_influence(result, image,
+                                          choose(MOMENTS, "name", name), influence))
         return influence.pixels
 
 
@@ -159,7 +159,7 @@ def weighted_moments(image, x, y, mxx, mxy, myy, strict=True):
     ``flux`` is the sum of I w, the second moments are about the weight's centre."""
     image = as_image(image)
     return _copied(lambda out: lib.wfpsf_moments_measure_weighted(
-        image.pointer, x, y, mxx, mxy, myy, out), strict)
+        image, x, y, mxx, mxy, myy, out), strict)
 
 
 def moment_sums(image, x, y, weight=None):
@@ -170,7 +170,7 @@ def moment_sums(image, x, y, weight=None):
     if matrix is not None and len(matrix) != 3:
         raise ValueError("weight has %d numbers: must have 3" % len(matrix))
     sums = np.empty(15)
-    check(lib.wfpsf_moments_sums(image.pointer, x, y, address(matrix), sums.size, sums.ctypes.data))
+    check(lib.wfpsf_moments_sums(image, x, y, address(matrix), sums.size, sums.ctypes.data))
     return sums
 
 
@@ -178,5 +178,5 @@ def unweighted_moments(image, x=math.nan, y=math.nan, strict=True):
     """:class:`Moments` over the whole image about the centroid, or about the point (x, y), the
     centre of the first pixel being (0, 0). ``strict`` as for :func:`adaptive_moments`."""
     image = as_image(image)
-    return _copied(lambda out: lib.wfpsf_moments_measure_unweighted(image.pointer, x, y, out),
+    return _copied(lambda out: lib.wfpsf_moments_measure_unweighted(image, x, y, out),
                    strict)

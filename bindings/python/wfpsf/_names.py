@@ -41,7 +41,7 @@ def text(argument, value):
 
 def numbers(argument, values, dimensions=1):
     """A contiguous array of doubles; ``.ctypes.data`` is its address."""
-    array = np.ascontiguousarray(values, dtype=np.float64)
+    array = np.asarray(values, dtype=np.float64, order="C")
     if array.ndim != dimensions:
         raise ValueError("%s has %d dimensions: must have %d" % (argument, array.ndim, dimensions))
     return array

@@ -50,20 +50,20 @@ class Options(Handle):
     def set(self, name, value):
         if name == "zernikes":
             coefficients = numbers(name, value)
-            check(lib.wfpsf_options_set_zernikes(self.pointer, len(coefficients),
+            check(lib.wfpsf_options_set_zernikes(self, len(coefficients),
                                                  coefficients.ctypes.data))
         elif name == "opd":
             from ._image import as_image
             image, scale_m, axis_x, axis_y = value
             image = as_image(image)
-            check(lib.wfpsf_options_set_opd(self.pointer, image.pointer, scale_m, axis_x, axis_y))
+            check(lib.wfpsf_options_set_opd(self, image, scale_m, axis_x, axis_y))
         elif name == "progress":
             self._tell = _lib.wfpsf_progress(self._progress(value))  # the library holds its address
-            check(lib.wfpsf_options_set_progress(self.pointer, self._tell, None))
+            check(lib.wfpsf_options_set_progress(self, self._tell, None))
         elif describe(name).integer:
-            check(lib.wfpsf_options_set_integer(self.pointer, OPTIONS[name], integer(name, value)))
+            check(lib.wfpsf_options_set_integer(self, OPTIONS[name], integer(name, value)))
         else:
-            check(lib.wfpsf_options_set_real(self.pointer, OPTIONS[name], value))
+            check(lib.wfpsf_options_set_real(self, OPTIONS[name], value))
 
     def _progress(self, tell):
         # Exceptions must not pass through C: they stop the work and are raised afterwards.
@@ -85,7 +85,7 @@ def _chosen(taken, given):
             if value is not None:
                 handle.set(name, value)
         try:
-            yield handle.pointer
+            yield handle
         except Exception:
             if handle.failure is not None:
                 raise handle.failure from None
@@ -93,5 +93,5 @@ def _chosen(taken, given):
 
 
 def chosen(taken, given):
-    """A context of the pointer to the options that a function was given, of those it takes."""
+    """A context of the options that a function was given, of those it takes."""
     return _chosen(taken, given) if given else contextlib.nullcontext()

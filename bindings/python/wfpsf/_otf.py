@@ -34,7 +34,7 @@ class OTF(Properties, Handle):
 
     def __init__(self, psf, **options):
         with chosen(("eps",), options) as handle:
-            self._own(created(lambda out: lib.wfpsf_otf_create(psf.pointer, handle, out)))
+            self._own(created(lambda out: lib.wfpsf_otf_create(psf, handle, out)))
 
     def __call__(self, kx, ky, response="effective"):
         """Complex numbers, integral of I(theta) exp(-2 pi i k.theta), at kx and ky in cycles per
@@ -45,7 +45,7 @@ class OTF(Properties, Handle):
         if x.shape != y.shape:
             raise ValueError("kx and ky must have one shape, not %s and %s" % (x.shape, y.shape))
         re, im = np.empty_like(x), np.empty_like(x)
-        check(lib.wfpsf_otf_values(self.pointer, choose(RESPONSES, "response", response), x.size,
+        check(lib.wfpsf_otf_values(self, choose(RESPONSES, "response", response), x.size,
                                    x.ctypes.data, y.ctypes.data, re.ctypes.data, im.ctypes.data))
         return (re + 1j * im)[()]
 
@@ -59,6 +59,6 @@ class OTF(Properties, Handle):
         """
         values = np.zeros((ny, nx), np.complex128)
         with Image(values.real) as re, Image(values.imag) as im:
-            check(lib.wfpsf_otf_grid(self.pointer, choose(RESPONSES, "response", response),
-                                     choose(ORDERS, "order", order), step, re.pointer, im.pointer))
+            check(lib.wfpsf_otf_grid(self, choose(RESPONSES, "response", response),
+                                     choose(ORDERS, "order", order), step, re, im))
         return values

@@ -72,7 +72,7 @@ class PSF(Properties, Handle):
     def __init__(self, instrument, sca, wavelength_nm, **options):
         with chosen(PSF_OPTIONS, options) as handle:
             self._own(created(lambda out: lib.wfpsf_psf_create(
-                instrument.pointer, integer("sca", sca, 32), wavelength_nm, handle, out)))
+                instrument, integer("sca", sca, 32), wavelength_nm, handle, out)))
 
     @classmethod
     def in_band(cls, instrument, band, sca, x, y, wavelength_nm=0.0, sed=None, **options):
@@ -93,7 +93,7 @@ class PSF(Properties, Handle):
             return psfs(instrument, band, sca, x, y, [sed], **options)[0]
         with chosen(PSF_OPTIONS, options) as handle:
             return cls._of(created(lambda out: lib.wfpsf_psf_create_in_band(
-                instrument.pointer, text("band", band), integer("sca", sca, 32), x, y,
+                instrument, text("band", band), integer("sca", sca, 32), x, y,
                 wavelength_nm, handle, out)))
 
     @classmethod
@@ -104,7 +104,7 @@ class PSF(Properties, Handle):
         mask = as_image(mask)
         with chosen(PSF_OPTIONS, options) as handle:
             return cls._of(created(lambda out: lib.wfpsf_psf_create_from_mask(
-                instrument.pointer, mask.pointer, scale_m, axis_x, axis_y,
+                instrument, mask, scale_m, axis_x, axis_y,
                 integer("sca", sca, 32), wavelength_nm, handle, out)))
 
     def draw_into(self, image, x, y, flux=1.0, **options):
@@ -122,7 +122,7 @@ class PSF(Properties, Handle):
         """
         image = writable(image)
         with chosen(DRAW_OPTIONS, options) as handle:
-            check(lib.wfpsf_psf_draw(self.pointer, x, y, flux, handle, image.pointer))
+            check(lib.wfpsf_psf_draw(self, x, y, flux, handle, image))
         return image
 
     def draw(self, nx, ny, x=None, y=None, flux=1.0, oversampling=1, dtype=np.float64, **options):
@@ -136,14 +136,14 @@ class PSF(Properties, Handle):
         seen far from them. Otherwise as ``draw_into``; ``force`` as in ``add_stars``."""
         image = writable(image)
         with chosen(DRAW_OPTIONS + ("force",), options) as handle:
-            check(lib.wfpsf_psf_add_bright_star(self.pointer, x, y, flux, handle, image.pointer))
+            check(lib.wfpsf_psf_add_bright_star(self, x, y, flux, handle, image))
         return image
 
     def draw_memory(self, image, x, y):
         """The bytes that drawing a star at (x, y) into the image would take: (least, most), without
         which it cannot be done and with which it is done in one go."""
         image, least, most = as_image(image), ctypes.c_int64(), ctypes.c_int64()
-        check(lib.wfpsf_psf_draw_memory(self.pointer, x, y, image.pointer, least, most))
+        check(lib.wfpsf_psf_draw_memory(self, x, y, image, least, most))
         return Memory(least.value, most.value)
 
     def add_stars(self, image, x, y, flux, **options):
@@ -158,8 +158,8 @@ class PSF(Properties, Handle):
         image = writable(image)
         x, y, flux = of_one_length(x=x, y=y, flux=flux)
         with chosen(STAR_OPTIONS, options) as handle:
-            check(lib.wfpsf_psf_add_stars(self.pointer, len(x), x.ctypes.data, y.ctypes.data,
-                                          flux.ctypes.data, handle, image.pointer))
+            check(lib.wfpsf_psf_add_stars(self, len(x), x.ctypes.data, y.ctypes.data,
+                                          flux.ctypes.data, handle, image))
         return image
 
     def convolve_into(self, image, galaxy, x, y, flux=1.0, **options):
@@ -167,14 +167,14 @@ class PSF(Properties, Handle):
 
         ``galaxy`` is an image of the flux of each sample, its oversampling a multiple of the
         image's. The result is what ``draw_into`` gives for a star at every sample, added up;
-        nothing wraps around. The centre of ``galaxy`` falls on (x, y), pixels of the image, the centre of
-        the first one being (0, 0). ``flux`` multiplies the samples. A galaxy that holds the pixel
-        response or IPC already is refused unless the option ``force`` is set.
+        nothing wraps around. The centre of ``galaxy`` falls on (x, y), pixels of the image, the
+        centre of the first one being (0, 0). ``flux`` multiplies the samples. A galaxy that holds
+        the pixel response or IPC already is refused unless the option ``force`` is set.
         """
         image, galaxy = writable(image), as_image(galaxy)
         with chosen(("force",), options) as handle:
-            check(lib.wfpsf_psf_convolve(self.pointer, galaxy.pointer, x, y, flux, handle,
-                                         image.pointer))
+            check(lib.wfpsf_psf_convolve(self, galaxy, x, y, flux, handle,
+                                         image))
         return image
 
 
@@ -185,6 +185,6 @@ def psfs(instrument, band, sca, x, y, seds, **options):
     with chosen(PSF_OPTIONS, options) as handle:
         out = (ctypes.c_void_p * len(seds))()
         check(lib.wfpsf_psf_create_chromatic(
-            instrument.pointer, text("band", band), integer("sca", sca, 32), x, y, len(seds),
+            instrument, text("band", band), integer("sca", sca, 32), x, y, len(seds),
             pointers(seds), handle, out))
     return [PSF._of(pointer) for pointer in out]

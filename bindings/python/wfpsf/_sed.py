@@ -23,7 +23,7 @@ class SED(Handle):
         What the density counts per unit of wavelength: "photons" (f_photon) or "energy" (f_lambda).
 
     >>> SED.power_law(1.0, unit="photons").photon_density([1000, 2000]).tolist()
-    [1000.0, 2000.0]
+    [1.0, 2.0]
     """
 
     _destroy = "wfpsf_sed_destroy"
@@ -49,13 +49,13 @@ class SED(Handle):
     def redshifted(self, redshift):
         """Another SED, its wavelengths 1 + redshift times as long."""
         return self._of(created(
-            lambda out: lib.wfpsf_sed_create_redshifted(self.pointer, redshift, out)))
+            lambda out: lib.wfpsf_sed_create_redshifted(self, redshift, out)))
 
     def photon_density(self, wavelength_nm):
         """Photons per unit of wavelength at one wavelength or at each of an array, nm, up to a
         factor that is the same for all wavelengths."""
         wavelengths = np.array(wavelength_nm, dtype=np.float64, order="C")
         photons = np.empty_like(wavelengths)
-        check(lib.wfpsf_sed_photon_density(self.pointer, photons.size, wavelengths.ctypes.data,
+        check(lib.wfpsf_sed_photon_density(self, photons.size, wavelengths.ctypes.data,
                                            photons.ctypes.data))
         return photons[()]

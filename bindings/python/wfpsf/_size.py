@@ -29,7 +29,7 @@ def encircled_energy(image, x, y, radius, **options):
     """
     image, fraction, error = as_image(image), ctypes.c_double(), ctypes.c_double()
     with chosen(SIZE_OPTIONS, options) as handle:
-        check(lib.wfpsf_size_encircled_energy(image.pointer, x, y, radius, handle, fraction, error))
+        check(lib.wfpsf_size_encircled_energy(image, x, y, radius, handle, fraction, error))
     return Energy(fraction.value, error.value)
 
 
@@ -39,11 +39,12 @@ def ee_radius(image, x, y, fraction=0.5, method="bandlimited", **options):
 
     ``method``: "bandlimited" (the band-limited image integrated over the disc), "pixel_sum" (pixels
     whose centre lies in the circle; Kannawadi et al. 2016, Eq. 25) or "pixel_interpolated"
-    (GalSim's calculateHLR); the last two have NaN for an error. Options as for :func:`encircled_energy`.
+    (GalSim's calculateHLR); the last two have NaN for an error. Options as for
+    :func:`encircled_energy`.
     """
     image, radius, error = as_image(image), ctypes.c_double(), ctypes.c_double()
     with chosen(SIZE_OPTIONS, options) as handle:
-        check(lib.wfpsf_size_ee_radius(image.pointer, x, y, fraction,
+        check(lib.wfpsf_size_ee_radius(image, x, y, fraction,
                                        choose(SIZE_METHODS, "method", method), handle, radius,
                                        error))
     return Radius(radius.value, error.value)
@@ -54,7 +55,7 @@ def ee_radius_derivative(image, change, x, y, fraction=0.5, **options):
     from t = 0. Options as for :func:`encircled_energy`."""
     image, change, derivative = as_image(image), as_image(change), ctypes.c_double()
     with chosen(SIZE_OPTIONS, options) as handle:
-        check(lib.wfpsf_size_ee_radius_derivative(image.pointer, change.pointer, x, y, fraction,
+        check(lib.wfpsf_size_ee_radius_derivative(image, change, x, y, fraction,
                                                   handle, derivative))
     return derivative.value
 
@@ -63,7 +64,7 @@ def fwhm(image, x, y):
     """Full width at half maximum about (x, y) from pixels sorted by distance, as GalSim's
     calculateFWHM."""
     image, width = as_image(image), ctypes.c_double()
-    check(lib.wfpsf_size_fwhm(image.pointer, x, y, width))
+    check(lib.wfpsf_size_fwhm(image, x, y, width))
     return width.value
 
 
@@ -73,7 +74,7 @@ def radial_profile(image, x, y, radii, **options):
     image, radii = as_image(image), numbers("radii", radii)
     profile = np.empty_like(radii)
     with chosen(SIZE_OPTIONS, options) as handle:
-        check(lib.wfpsf_size_profile(image.pointer, x, y, len(radii), radii.ctypes.data, handle,
+        check(lib.wfpsf_size_profile(image, x, y, len(radii), radii.ctypes.data, handle,
                                      profile.ctypes.data))
     return profile
 
@@ -82,5 +83,5 @@ def profile_fwhm(image, x, y, **options):
     """Full width at half maximum of the :func:`radial_profile` about (x, y)."""
     image, width = as_image(image), ctypes.c_double()
     with chosen(SIZE_OPTIONS, options) as handle:
-        check(lib.wfpsf_size_profile_fwhm(image.pointer, x, y, handle, width))
+        check(lib.wfpsf_size_profile_fwhm(image, x, y, handle, width))
     return width.value

@@ -57,8 +57,8 @@ def last_error():
 def _users_level():
     """The stacklevel at which a warning points to the first caller outside of this package."""
     level, frame = 0, sys._getframe(0)
-    package = __name__.partition(".")[0]
-    while frame and frame.f_globals.get("__name__", "").partition(".")[0] == package:
+    ours = (__name__.partition(".")[0], "contextlib")
+    while frame and frame.f_globals.get("__name__", "").partition(".")[0] in ours:
         level, frame = level + 1, frame.f_back
     return level
 

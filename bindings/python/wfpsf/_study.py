@@ -24,7 +24,7 @@ class Study(Handle):
     def __init__(self, instrument, sca, **options):
         with chosen(STUDY_OPTIONS, options) as handle:
             self._own(created(lambda out: lib.wfpsf_study_create(
-                instrument.pointer, integer("sca", sca, 32), handle, out)))
+                instrument, integer("sca", sca, 32), handle, out)))
 
     def table(self, name):
         """A table as a dict of columns, arrays of numbers or lists of words:
@@ -36,20 +36,20 @@ class Study(Handle):
         """
         table = choose(STUDY_TABLES, "name", name)
         rows, columns = ctypes.c_int64(), ctypes.c_int64()
-        check(lib.wfpsf_study_size(self.pointer, table, rows, columns))
-        return {lib.wfpsf_study_column(self.pointer, table, column).decode():
+        check(lib.wfpsf_study_size(self, table, rows, columns))
+        return {lib.wfpsf_study_column(self, table, column).decode():
                 self._column(table, rows.value, column) for column in range(columns.value)}
 
     def _column(self, table, rows, column):
-        if rows and lib.wfpsf_study_text(self.pointer, table, 0, column) is not None:
-            return [lib.wfpsf_study_text(self.pointer, table, row, column).decode()
+        if rows and lib.wfpsf_study_text(self, table, 0, column) is not None:
+            return [lib.wfpsf_study_text(self, table, row, column).decode()
                     for row in range(rows)]
         value, values = ctypes.c_double(), np.empty(rows)
         for row in range(rows):
-            check(lib.wfpsf_study_value(self.pointer, table, row, column, value))
+            check(lib.wfpsf_study_value(self, table, row, column, value))
             values[row] = value.value
         return values
 
     def write_csv(self, folder):
         """Writes every table as CSV into a folder that exists, replacing files that are there."""
-        check(lib.wfpsf_study_write_csv(self.pointer, text("folder", folder)))
+        check(lib.wfpsf_study_write_csv(self, text("folder", folder)))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The PSF all over a detector."""
 from ._handle import Handle, Properties, created
-from ._image import pointer_or_none, writable
+from ._image import writable
 from ._library import lib
 from ._names import constants_of, integer, of_one_length, text
 from ._options import chosen
@@ -29,12 +29,12 @@ class VaryingPSF(Properties, Handle):
     def __init__(self, instrument, band, sca, wavelength_nm=0.0, sed=None, **options):
         with chosen(PSF_OPTIONS, options) as handle:
             self._own(created(lambda out: lib.wfpsf_varying_psf_create(
-                instrument.pointer, text("band", band), integer("sca", sca, 32), wavelength_nm,
-                pointer_or_none(sed), handle, out)))
+                instrument, text("band", band), integer("sca", sca, 32), wavelength_nm,
+                sed, handle, out)))
 
     def at(self, x, y):
         """The PSF at (x, y), pixels of the detector, the first one's centre at (0, 0)."""
-        return PSF._of(created(lambda out: lib.wfpsf_varying_psf_at(self.pointer, x, y, out)))
+        return PSF._of(created(lambda out: lib.wfpsf_varying_psf_at(self, x, y, out)))
 
     def add_stars(self, image, x0, y0, x, y, flux, **options):
         """Adds stars as ``PSF.add_stars`` does, each with the PSF of its own place. (x0, y0) is
@@ -43,6 +43,6 @@ class VaryingPSF(Properties, Handle):
         x, y, flux = of_one_length(x=x, y=y, flux=flux)
         with chosen(STAR_OPTIONS, options) as handle:
             check(lib.wfpsf_varying_psf_add_stars(
-                self.pointer, x0, y0, len(x), x.ctypes.data, y.ctypes.data, flux.ctypes.data,
-                handle, image.pointer))
+                self, x0, y0, len(x), x.ctypes.data, y.ctypes.data, flux.ctypes.data,
+                handle, image))
         return image
