@@ -154,8 +154,9 @@ class WfpsfPSF(galsim.GSObject):
 
     @property
     def _centroid(self):
-        k = NEAR_ZERO * self._model.cutoff x, y = -np.angle(self._model.values(np.array([k, 0.0]),
-        np.array([0.0, k]))) / (2 * np.pi * k) return galsim.PositionD(x, y)
+        k = NEAR_ZERO * self._model.cutoff
+        values = self._model.values(np.array([k, 0.0]), np.array([0.0, k]))
+        return galsim.PositionD(*(-np.angle(values) / (2 * np.pi * k)))
 
     @property
     def _max_sb(self):
@@ -165,9 +166,10 @@ class WfpsfPSF(galsim.GSObject):
         return self._flux * complex(self._model.values(kpos.x / (2 * np.pi), kpos.y / (2 * np.pi)))
 
     def _drawKImage(self, image, jac=None):
-        bounds = image.xmin, image.xmax, image.ymin, image.ymax jacobian = None if jac is None else
-        tuple(map(tuple, np.asarray(jac).tolist())) image.array[...] = self._flux *
-        self._model.grid(bounds, image.scale / (2 * np.pi), jacobian)
+        bounds = image.xmin, image.xmax, image.ymin, image.ymax
+        jacobian = None if jac is None else tuple(map(tuple, np.asarray(jac).tolist()))
+        step = image.scale / (2 * np.pi)
+        image.array[...] = self._flux * self._model.grid(bounds, step, jacobian)
 
     def _key(self):
         return self._recipe, self._flux, self._gsparams
