@@ -20,6 +20,7 @@ with warnings.catch_warnings():
     import wfpsf.galsim
 
 SCALE = 0.11
+TOLERANCE = 4e-6  # of the peak, at default settings
 
 
 def draw(psf, n=24, offset=(0.0, 0.0)):
@@ -35,20 +36,19 @@ def stamp(x=100.0, y=200.0, n=24, offset=(0.0, 0.0), wavelength_nm=1500.0, **opt
 class Plugin(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.gsparams = galsim.GSParams(folding_threshold=1e-3)
-        cls.psf = wfpsf.galsim.WfpsfPSF(7, "H158", 100, 200, 1500.0, gsparams=cls.gsparams)
+        cls.psf = wfpsf.galsim.WfpsfPSF(7, "H158", 100, 200, 1500.0)
 
     def assertClose(self, found, expected, tolerance):
         self.assertLess(np.abs(found - expected).max() / expected.max(), tolerance)
 
     def test_drawn_as_by_wfpsf(self):
         for offset in ((0, 0), (0.3, -0.2)):
-            self.assertClose(draw(self.psf, offset=offset), stamp(offset=offset), 3e-5)
+            self.assertClose(draw(self.psf, offset=offset), stamp(offset=offset), TOLERANCE)
 
     def test_k_space(self):
         self.assertAlmostEqual(self.psf.kValue(0, 0), 1, 12)
         with wfpsf.PSF.in_band(wfpsf.Instrument("roman-c9"), "H158", 7, 100, 200, 1500) as psf:
-            otf = wfpsf.OTF(psf, eps=1e-5)
+            otf = wfpsf.OTF(psf, eps=1e-4)
         expected = otf(3.0 / (2 * np.pi), -5.0 / (2 * np.pi), response="diffraction")
         self.assertAlmostEqual(self.psf.kValue(3.0, -5.0), expected, 5)
         self.assertAlmostEqual(self.psf.maxk, 2 * np.pi * otf.cutoff, 9)
@@ -56,10 +56,10 @@ class Plugin(unittest.TestCase):
 
     def test_folding(self):
         coarse = self.psf.withGSParams(folding_threshold=1e-2)
-        self.assertAlmostEqual(coarse.stepk / self.psf.stepk, 10, 9)
+        self.assertAlmostEqual(coarse.stepk / self.psf.stepk, 2, 9)
 
     def test_flux(self):
-        bright = wfpsf.galsim.WfpsfPSF(7, "H158", 100, 200, 1500.0, flux=5, gsparams=self.gsparams)
+        bright = wfpsf.galsim.WfpsfPSF(7, "H158", 100, 200, 1500.0, flux=5)
         self.assertEqual(bright.flux, 5)
         np.testing.assert_allclose(draw(bright), 5 * draw(self.psf), rtol=1e-6, atol=1e-9)
         self.assertAlmostEqual(bright.max_sb, 5 * self.psf.max_sb)
@@ -74,12 +74,12 @@ class Plugin(unittest.TestCase):
 
     def test_blur(self):
         blur = {"jitter_xx": 2e-4, "jitter_xy": 1e-4, "jitter_yy": 3e-4, "charge_diffusion": 0.2}
-        psf = wfpsf.galsim.WfpsfPSF(7, "H158", 100, 200, 1500.0, gsparams=self.gsparams, **blur)
-        self.assertClose(draw(psf), stamp(**blur), 3e-5)
+        psf = wfpsf.galsim.WfpsfPSF(7, "H158", 100, 200, 1500.0, **blur)
+        self.assertClose(draw(psf), stamp(**blur), TOLERANCE)
 
     def test_objects_are_values(self):
-        same = wfpsf.galsim.WfpsfPSF(7, "H158", 100, 200, 1500, gsparams=self.gsparams)
-        other = wfpsf.galsim.WfpsfPSF(7, "H158", 101, 200, 1500, gsparams=self.gsparams)
+        same = wfpsf.galsim.WfpsfPSF(7, "H158", 100, 200, 1500)
+        other = wfpsf.galsim.WfpsfPSF(7, "H158", 101, 200, 1500)
         coloured = wfpsf.galsim.WfpsfPSF(7, "H158", 1, 2, sed=([1000, 2000], [1, 2]),
                                          zernikes=[0, 0, 0, 0.01], eps=1e-3)
         self.assertEqual(self.psf, same)
@@ -100,12 +100,10 @@ class Plugin(unittest.TestCase):
     def test_getPSF(self):
         # GalSim's positions count from (1, 1).
         position = galsim.PositionD(101, 201)
-        psf = wfpsf.galsim.getPSF(7, "H158", SCA_pos=position, wavelength=1500.0,
-                                  gsparams=self.gsparams)
+        psf = wfpsf.galsim.getPSF(7, "H158", SCA_pos=position, wavelength=1500.0)
         self.assertEqual(psf, self.psf)
         aberrated = wfpsf.galsim.getPSF(7, "H158", SCA_pos=position, wavelength=1500.0, eps=1e-4,
-                                        extra_aberrations=[9, 9, 9, 9, 0.05],
-                                        gsparams=self.gsparams)
+                                        extra_aberrations=[9, 9, 9, 9, 0.05])
         self.assertClose(draw(aberrated), stamp(zernikes=[0, 0, 0, 0.05]), 1e-3)
         coloured = wfpsf.galsim.getPSF(7, "H158", SCA_pos=position, eps=1e-3)
         self.assertEqual(coloured._recipe.sed, ((1.0, 1e5), (1.0, 1.0)))
@@ -119,16 +117,16 @@ class Plugin(unittest.TestCase):
     def test_wcs(self):
         # A quarter turn of the sky: what was along x on the detector lies along y.
         turned = wfpsf.galsim.getPSF(7, "H158", SCA_pos=galsim.PositionD(101, 201),
-                                     wavelength=1500.0, gsparams=self.gsparams,
+                                     wavelength=1500.0,
                                      wcs=galsim.JacobianWCS(0, -SCALE, SCALE, 0))
         expected = stamp()
-        self.assertClose(draw(turned), np.rot90(expected, -1), 3e-5)
+        self.assertClose(draw(turned), np.rot90(expected, -1), TOLERANCE)
         self.assertGreater(np.abs(draw(turned) - expected).max() / expected.max(), 1e-3)
 
     def test_frames(self):
-        science, pupil = (wfpsf.galsim.WfpsfPSF(7, "H158", 100, 200, 1500.0, frame=frame,
-                                                gsparams=self.gsparams) for frame in (0, 1))
-        np.testing.assert_allclose(draw(pupil), draw(science)[::-1], atol=1e-6)
+        science, pupil = (wfpsf.galsim.WfpsfPSF(7, "H158", 100, 200, 1500.0, frame=frame)
+                          for frame in (0, 1))
+        np.testing.assert_allclose(draw(pupil), draw(science)[::-1], atol=1e-5)
 
     def test_config(self):
         field = {"type": "WfpsfPSF", "SCA": 7, "bandpass": "H158", "wavelength": 1500.0,
