@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from ._handle import Handle, get
+from ._handle import Handle
 from ._image import as_image, zeros
 from ._library import lib
 from ._names import address, choose, constants_of, numbers
@@ -63,8 +63,12 @@ class _Result(Handle):
                 raise
 
     def read(self):
-        return Moments(self.status,
-                       *(get(lib.wfpsf_moments_get, self, key) for key in MOMENTS.values()))
+        value, pointer = ctypes.c_double(), self._as_parameter_
+        out, found = ctypes.byref(value), [self.status]
+        for key in MOMENTS.values():
+            check(lib.wfpsf_moments_get(pointer, key, out))
+            found.append(value.value)
+        return Moments._make(found)
 
 
 def _copied(measure, strict):

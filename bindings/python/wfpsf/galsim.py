@@ -60,7 +60,16 @@ class _Model:
         diffused = (diffusion * self.scale)**2
         self.blur = np.array([[xx + diffused, xy], [xy, yy + diffused]])
         self.cutoff = self.otf.cutoff
+        self.slope, self.centroid = self._near_zero()
         self.grids = collections.OrderedDict()
+
+    def _near_zero(self):
+        """c of the OTF's fall, 1 - c |k|, about k = 0, and the centroid, arcsec."""
+        k = NEAR_ZERO * self.cutoff
+        angle = np.arange(16) * np.pi / 16
+        values = self.values(k * np.cos(angle), k * np.sin(angle))
+        return (np.mean(1 - np.abs(values)) / k,
+                tuple(-np.angle(values[[0, 8]]) / (2 * np.pi * k)))
 
     def values(self, kx, ky):
         """Of the PSF of flux 1 without the pixel; cycles per arcsec."""
@@ -148,16 +157,11 @@ class WfpsfPSF(galsim.GSObject):
     @property
     def _stepk(self):
         # Where the OTF falls like 1 - c |k|, all but c / (2 pi R) of the light is within R.
-        k = NEAR_ZERO * self._model.cutoff
-        angle = np.arange(16) * np.pi / 16
-        c = np.mean(1 - np.abs(self._model.values(k * np.cos(angle), k * np.sin(angle)))) / k
-        return np.pi / (c / (2 * np.pi * self.gsparams.folding_threshold))
+        return np.pi / (self._model.slope / (2 * np.pi * self.gsparams.folding_threshold))
 
     @property
     def _centroid(self):
-        k = NEAR_ZERO * self._model.cutoff
-        values = self._model.values(np.array([k, 0.0]), np.array([0.0, k]))
-        return galsim.PositionD(*(-np.angle(values) / (2 * np.pi * k)))
+        return galsim.PositionD(*self._model.centroid)
 
     @property
     def _max_sb(self):
@@ -169,8 +173,8 @@ class WfpsfPSF(galsim.GSObject):
     def _drawKImage(self, image, jac=None):
         bounds = image.xmin, image.xmax, image.ymin, image.ymax
         jacobian = None if jac is None else tuple(map(tuple, np.asarray(jac).tolist()))
-        step = image.scale / (2 * np.pi)
-        image.array[...] = self._flux * self._model.grid(bounds, step, jacobian)
+        values = self._model.grid(bounds, image.scale / (2 * np.pi), jacobian)
+        np.multiply(values, self._flux, out=image.array, casting="same_kind")
 
     def _key(self):
         return self._recipe, self._flux, self._gsparams
