@@ -15,7 +15,7 @@ import warnings
 import numpy as np
 import wfpsf
 from support import gaussian, status_of
-from wfpsf import _chain, _ipc, _moments, _options, _otf, _psf, _size, _study
+from wfpsf import _chain, _ipc, _moments, _psf, _size, _study
 
 
 def load_tests(loader, tests, pattern):
@@ -119,6 +119,22 @@ class Errors(unittest.TestCase):
         self.assertEqual(caught[0].filename, __file__)
         quiet = wfpsf.adaptive_moments(image, moments_max_passes=1, strict=False)
         self.assertEqual(quiet.status, wfpsf.constants.WFPSF_WARNING_NOT_CONVERGED)
+
+    def test_warnings_as_errors(self):
+        # What was made is owned all the same, and freed.
+        owned = []
+
+        class Kernel(wfpsf.IPCKernel):
+            def _own(self, pointer):
+                owned.append(pointer)
+                super()._own(pointer)
+
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            with self.assertRaises(wfpsf.WfpsfWarning):
+                Kernel._made(lambda out: wfpsf.library.wfpsf_ipc_kernel_create_wfc3(out) or
+                             wfpsf.constants.WFPSF_WARNING_NOT_CERTIFIED)
+        self.assertEqual(len(owned), 1)
 
     def test_arguments(self):
         instrument = wfpsf.Instrument()

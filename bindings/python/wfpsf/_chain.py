@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from ._handle import Handle, created, pointers
+from ._handle import Handle, pointers
 from ._image import as_image, writable
 from ._ipc import EDGES, VaryingIPC
 from ._library import lib
@@ -35,14 +35,13 @@ class Chain(Handle):
     _destroy = "wfpsf_chain_destroy"
 
     def __init__(self):
-        self._own(created(lib.wfpsf_chain_create))
+        self._make(lib.wfpsf_chain_create)
 
     @classmethod
     def default(cls, instrument, exposure_time=None):
         """The instrument's own chain; exposure time in seconds, None: the instrument's."""
         time = math.nan if exposure_time is None else exposure_time
-        return cls._of(created(
-            lambda out: lib.wfpsf_chain_create_default(instrument, time, out)))
+        return cls._made(lambda out: lib.wfpsf_chain_create_default(instrument, time, out))
 
     def add(self, step, *parameters, map=None):
         """Adds a step of numbers at the end, or one with a map (an image, which is copied):

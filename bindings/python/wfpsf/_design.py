@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Figures of one's own."""
-from ._handle import Handle, created
+from ._handle import Handle
 from ._library import lib
 from ._names import integer, numbers, text
 from ._status import check
@@ -23,7 +23,7 @@ class Design(Handle):
     _destroy = "wfpsf_design_destroy"
 
     def __init__(self):
-        self._own(created(lib.wfpsf_design_create))
+        self._make(lib.wfpsf_design_create)
 
     def set_telescope(self, *, diameter_m, obscuration, reference_wavelength_nm):
         """The mirrors. The obscuration is linear, a fraction of the diameter, 0 to 0.99; Zernike

@@ -18,6 +18,14 @@ class Handle:
 
     _destroy = None  # the name of the function that frees it
 
+    def _make(self, call):
+        """Owns what ``call(out)`` makes, then checks the status: a warning may be an exception."""
+        out = ctypes.c_void_p()
+        status = call(ctypes.byref(out))
+        if out.value:
+            self._own(out.value)
+        check(status)
+
     def _own(self, pointer):
         self._pointer = pointer
         self._finalizer = weakref.finalize(self, getattr(lib, self._destroy), pointer)
@@ -28,6 +36,13 @@ class Handle:
         """An object that owns this pointer."""
         handle = cls.__new__(cls)
         handle._own(pointer)
+        return handle
+
+    @classmethod
+    def _made(cls, call):
+        """An object that owns what ``call(out)`` makes."""
+        handle = cls.__new__(cls)
+        handle._make(call)
         return handle
 
     @property
@@ -56,13 +71,6 @@ class Handle:
 
     def __reduce__(self):
         raise TypeError("cannot pickle a %s" % type(self).__name__)
-
-
-def created(call):
-    """The pointer that ``call(out)`` stores."""
-    out = ctypes.c_void_p()
-    check(call(ctypes.byref(out)))
-    return out.value
 
 
 def pointers(handles):

@@ -6,7 +6,7 @@ import ctypes
 import numpy as np
 
 from . import _lib
-from ._handle import Handle, created
+from ._handle import Handle
 from ._library import lib
 from ._names import choose, constants_of, integer, text
 from ._options import chosen
@@ -63,9 +63,9 @@ class Image(Handle):
         stride_y, stride_x = (step // pixels.itemsize if size > 1 else other for step, size, other
                               in zip(pixels.strides, pixels.shape, (nx, 1)))
         self.pixels = pixels
-        self._own(created(lambda out: lib.wfpsf_image_wrap(
+        self._make(lambda out: lib.wfpsf_image_wrap(
             PIXEL_TYPES[pixels.dtype], pixels.ctypes.data, nx, ny, stride_x, stride_y,
-            integer("oversampling", oversampling), out)))
+            integer("oversampling", oversampling), out))
         if pixel_scale_arcsec or applied:
             self.set_record(oversampling, pixel_scale_arcsec, applied)
 
@@ -145,8 +145,8 @@ def read_fits(path, hdu=None, dtype=None):
     """
     name = None if hdu is None else text("hdu", str(hdu))
     asked = 0 if dtype is None else pixel_type(dtype)
-    source = Image._of(created(lambda out: lib.wfpsf_image_read_fits(text("path", path), name,
-                                                                     asked, out)))
+    source = Image._made(
+        lambda out: lib.wfpsf_image_read_fits(text("path", path), name, asked, out))
     with source:
         code, nx, ny = ctypes.c_int32(), ctypes.c_int64(), ctypes.c_int64()
         check(lib.wfpsf_image_shape(source, code, nx, ny))

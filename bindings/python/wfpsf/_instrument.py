@@ -6,7 +6,7 @@ import ctypes
 import numpy as np
 
 from ._design import Design
-from ._handle import Handle, created
+from ._handle import Handle
 from ._image import zeros
 from ._library import lib
 from ._names import choose, constants_of, integer, text
@@ -33,11 +33,9 @@ class Instrument(Handle):
 
     def __init__(self, source="wfirst-afta-c5"):
         if isinstance(source, Design):
-            self._own(created(
-                lambda out: lib.wfpsf_instrument_create_from_design(source, out)))
+            self._make(lambda out: lib.wfpsf_instrument_create_from_design(source, out))
         else:
-            self._own(created(
-                lambda out: lib.wfpsf_instrument_create(text("instrument", source), out)))
+            self._make(lambda out: lib.wfpsf_instrument_create(text("instrument", source), out))
 
     def constant(self, name):
         """(value, unit) of a constant, such as "diameter" or "pixel_scale"."""

@@ -5,7 +5,7 @@ import ctypes
 
 import numpy as np
 
-from ._handle import Handle, created, get, pointers
+from ._handle import Handle, get, pointers
 from ._image import as_image, writable, zeros
 from ._library import lib
 from ._names import address, choose, constants_of, integer, numbers, text
@@ -95,8 +95,8 @@ class IPCKernel(_IPC):
 
     def __init__(self, alpha, alpha_prime=0.0, alpha_plus=0.0, **options):
         with chosen(("kernel_negative",), options) as handle:
-            self._own(created(lambda out: lib.wfpsf_ipc_kernel_create(
-                alpha, alpha_prime, alpha_plus, handle, out)))
+            self._make(lambda out: lib.wfpsf_ipc_kernel_create(
+                alpha, alpha_prime, alpha_plus, handle, out))
 
     @classmethod
     def from_taps(cls, taps, **options):
@@ -104,20 +104,19 @@ class IPCKernel(_IPC):
         Options: kernel_negative, kernel_normalise."""
         taps = numbers("taps", taps, 2)
         with chosen(("kernel_negative", "kernel_normalise"), options) as handle:
-            return cls._of(created(lambda out: lib.wfpsf_ipc_kernel_create_taps(
-                taps.shape[1], taps.shape[0], taps.ctypes.data, handle, out)))
+            return cls._made(lambda out: lib.wfpsf_ipc_kernel_create_taps(
+                taps.shape[1], taps.shape[0], taps.ctypes.data, handle, out))
 
     @classmethod
     def default(cls, instrument):
         """The instrument's own."""
-        return cls._of(created(
-            lambda out: lib.wfpsf_ipc_kernel_create_default(instrument, out)))
+        return cls._made(lambda out: lib.wfpsf_ipc_kernel_create_default(instrument, out))
 
     @classmethod
     def wfc3(cls):
         """The kernel measured for WFC3/IR (Kannawadi et al. 2016, Eq. 11), divided by its printed
         sum."""
-        return cls._of(created(lib.wfpsf_ipc_kernel_create_wfc3))
+        return cls._made(lib.wfpsf_ipc_kernel_create_wfc3)
 
     @classmethod
     def read_fits(cls, path, hdu=None, **options):
@@ -125,32 +124,28 @@ class IPCKernel(_IPC):
         kernel_negative, kernel_normalise."""
         name = None if hdu is None else text("hdu", str(hdu))
         with chosen(("kernel_negative", "kernel_normalise"), options) as handle:
-            return cls._of(created(lambda out: lib.wfpsf_ipc_kernel_read_fits(
-                text("path", path), name, handle, out)))
+            return cls._made(lambda out: lib.wfpsf_ipc_kernel_read_fits(
+                text("path", path), name, handle, out))
 
     def correction(self, order=1):
         """The correction of an order (the first is the paper's Eq. 12): it undoes the kernel to
         ``order + 1`` in the coupling."""
         order = integer("order", order)
         if order == 1:
-            return self._of(created(
-                lambda out: lib.wfpsf_ipc_kernel_create_correction(self, out)))
-        return self._of(created(
-            lambda out: lib.wfpsf_ipc_kernel_create_neumann(self, order, out)))
+            return self._made(lambda out: lib.wfpsf_ipc_kernel_create_correction(self, out))
+        return self._made(lambda out: lib.wfpsf_ipc_kernel_create_neumann(self, order, out))
 
     def flipped(self):
         """K(-d): convolution with it is correlation with K."""
-        return self._of(created(lambda out: lib.wfpsf_ipc_kernel_create_flipped(self, out)))
+        return self._made(lambda out: lib.wfpsf_ipc_kernel_create_flipped(self, out))
 
     def then(self, second):
         """One kernel that does what this one does and then ``second``, image borders aside."""
-        return self._of(created(
-            lambda out: lib.wfpsf_ipc_kernel_create_composed(self, second, out)))
+        return self._made(lambda out: lib.wfpsf_ipc_kernel_create_composed(self, second, out))
 
     def autocorrelation(self):
         """The covariance, by lag, of white noise of variance 1 after the kernel."""
-        return self._of(created(
-            lambda out: lib.wfpsf_ipc_kernel_create_autocorrelation(self, out)))
+        return self._made(lambda out: lib.wfpsf_ipc_kernel_create_autocorrelation(self, out))
 
     def _shape(self):
         nx, ny = ctypes.c_int64(), ctypes.c_int64()
@@ -231,8 +226,7 @@ class VaryingIPC(_IPC):
         maps = [None if given is None else as_image(given)
                 for given in (alpha, alpha_prime, alpha_plus)]
         with chosen(("kernel_negative",), options) as handle:
-            return cls._of(created(lambda out: lib.wfpsf_varying_ipc_create_maps(
-                *maps, handle, out)))
+            return cls._made(lambda out: lib.wfpsf_varying_ipc_create_maps(*maps, handle, out))
 
     @classmethod
     def from_polynomials(cls, nx, ny, degree, alpha, alpha_prime=None, alpha_plus=None, **options):
@@ -245,20 +239,20 @@ class VaryingIPC(_IPC):
         if any(values is not None and len(values) != wanted for values in given):
             raise ValueError("a polynomial of degree %d has %d coefficients" % (degree, wanted))
         with chosen(("kernel_negative",), options) as handle:
-            return cls._of(created(lambda out: lib.wfpsf_varying_ipc_create_polynomials(
-                integer("nx", nx), integer("ny", ny), degree, *map(address, given), handle, out)))
+            return cls._made(lambda out: lib.wfpsf_varying_ipc_create_polynomials(
+                integer("nx", nx), integer("ny", ny), degree, *map(address, given), handle, out))
 
     @classmethod
     def from_regions(cls, regions, kernels):
         """From an image of regions, numbered from 0, and a kernel for each."""
         regions, kernels = as_image(regions), list(kernels)
-        return cls._of(created(lambda out: lib.wfpsf_varying_ipc_create_regions(
-            regions, len(kernels), pointers(kernels), out)))
+        return cls._made(lambda out: lib.wfpsf_varying_ipc_create_regions(
+            regions, len(kernels), pointers(kernels), out))
 
     def at(self, x, y):
         """The kernel of pixel (x, y), the first one being (0, 0)."""
-        return IPCKernel._of(created(lambda out: lib.wfpsf_varying_ipc_kernel(
-            self, integer("x", x), integer("y", y), out)))
+        return IPCKernel._made(lambda out: lib.wfpsf_varying_ipc_kernel(
+            self, integer("x", x), integer("y", y), out))
 
     def weakest(self):
         """The least stability margin, ``min |K^|``, of any pixel's kernel, and that pixel: (margin,

@@ -5,7 +5,7 @@ import contextlib
 import ctypes
 
 from . import _lib
-from ._handle import Handle, created
+from ._handle import Handle
 from ._library import lib
 from ._names import constants_of, integer, numbers
 from ._status import check
@@ -44,7 +44,7 @@ class Options(Handle):
     _destroy = "wfpsf_options_destroy"
 
     def __init__(self):
-        self._own(created(lib.wfpsf_options_create))
+        self._make(lib.wfpsf_options_create)
         self.failure = None  # what the progress function raised
 
     def set(self, name, value):
@@ -53,7 +53,7 @@ class Options(Handle):
             check(lib.wfpsf_options_set_zernikes(self, len(coefficients),
                                                  coefficients.ctypes.data))
         elif name == "opd":
-            from ._image import as_image
+            from ._image import as_image  # which needs this module
             image, scale_m, axis_x, axis_y = value
             image = as_image(image)
             check(lib.wfpsf_options_set_opd(self, image, scale_m, axis_x, axis_y))

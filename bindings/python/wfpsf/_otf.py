@@ -2,7 +2,7 @@
 """PSFs in k space."""
 import numpy as np
 
-from ._handle import Handle, Properties, created
+from ._handle import Handle, Properties
 from ._image import Image
 from ._library import lib
 from ._names import choose, constants_of
@@ -34,7 +34,7 @@ class OTF(Properties, Handle):
 
     def __init__(self, psf, **options):
         with chosen(("eps",), options) as handle:
-            self._own(created(lambda out: lib.wfpsf_otf_create(psf, handle, out)))
+            self._make(lambda out: lib.wfpsf_otf_create(psf, handle, out))
 
     def __call__(self, kx, ky, response="effective"):
         """Complex numbers, integral of I(theta) exp(-2 pi i k.theta), at kx and ky in cycles per

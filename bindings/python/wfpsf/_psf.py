@@ -5,7 +5,7 @@ import ctypes
 
 import numpy as np
 
-from ._handle import Handle, Properties, created, pointers
+from ._handle import Handle, Properties, pointers
 from ._image import as_image, writable, zeros
 from ._library import lib
 from ._names import constants_of, integer, of_one_length, text
@@ -71,8 +71,8 @@ class PSF(Properties, Handle):
 
     def __init__(self, instrument, sca, wavelength_nm, **options):
         with chosen(PSF_OPTIONS, options) as handle:
-            self._own(created(lambda out: lib.wfpsf_psf_create(
-                instrument, integer("sca", sca, 32), wavelength_nm, handle, out)))
+            self._make(lambda out: lib.wfpsf_psf_create(
+                instrument, integer("sca", sca, 32), wavelength_nm, handle, out))
 
     @classmethod
     def in_band(cls, instrument, band, sca, x, y, wavelength_nm=0.0, sed=None, **options):
@@ -92,9 +92,9 @@ class PSF(Properties, Handle):
                 raise TypeError("wavelength_nm and sed: give one of them")
             return psfs(instrument, band, sca, x, y, [sed], **options)[0]
         with chosen(PSF_OPTIONS, options) as handle:
-            return cls._of(created(lambda out: lib.wfpsf_psf_create_in_band(
+            return cls._made(lambda out: lib.wfpsf_psf_create_in_band(
                 instrument, text("band", band), integer("sca", sca, 32), x, y,
-                wavelength_nm, handle, out)))
+                wavelength_nm, handle, out))
 
     @classmethod
     def from_mask(cls, instrument, sca, wavelength_nm, mask, *, scale_m, axis_x, axis_y, **options):
@@ -103,9 +103,9 @@ class PSF(Properties, Handle):
         It takes a second for a mask of 4096 x 4096."""
         mask = as_image(mask)
         with chosen(PSF_OPTIONS, options) as handle:
-            return cls._of(created(lambda out: lib.wfpsf_psf_create_from_mask(
+            return cls._made(lambda out: lib.wfpsf_psf_create_from_mask(
                 instrument, mask, scale_m, axis_x, axis_y,
-                integer("sca", sca, 32), wavelength_nm, handle, out)))
+                integer("sca", sca, 32), wavelength_nm, handle, out))
 
     def draw_into(self, image, x, y, flux=1.0, **options):
         """Draws one star, overwriting the image, and returns it.
@@ -184,7 +184,9 @@ def psfs(instrument, band, sca, x, y, seds, **options):
     seds = list(seds)
     with chosen(PSF_OPTIONS, options) as handle:
         out = (ctypes.c_void_p * len(seds))()
-        check(lib.wfpsf_psf_create_chromatic(
+        status = lib.wfpsf_psf_create_chromatic(
             instrument, text("band", band), integer("sca", sca, 32), x, y, len(seds),
-            pointers(seds), handle, out))
-    return [PSF._of(pointer) for pointer in out]
+            pointers(seds), handle, out)
+        made = [PSF._of(pointer) for pointer in out if pointer]
+        check(status)
+    return made

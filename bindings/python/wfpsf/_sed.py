@@ -2,7 +2,7 @@
 """Spectral energy distributions."""
 import numpy as np
 
-from ._handle import Handle, created
+from ._handle import Handle
 from ._library import lib
 from ._names import choose, constants_of, of_one_length
 from ._status import check
@@ -30,26 +30,25 @@ class SED(Handle):
 
     def __init__(self, wavelength_nm, density, unit="photons"):
         wavelengths, values = of_one_length(wavelength_nm=wavelength_nm, density=density)
-        self._own(created(lambda out: lib.wfpsf_sed_create_table(
+        self._make(lambda out: lib.wfpsf_sed_create_table(
             choose(SED_UNITS, "unit", unit), len(values), wavelengths.ctypes.data,
-            values.ctypes.data, out)))
+            values.ctypes.data, out))
 
     @classmethod
     def power_law(cls, exponent, unit="photons"):
         """A density proportional to wavelength^exponent. Flat in f_lambda: ``power_law(0,
         "energy")``; flat in f_nu, an AB source: ``power_law(-2, "energy")``."""
-        return cls._of(created(lambda out: lib.wfpsf_sed_create_power_law(
-            choose(SED_UNITS, "unit", unit), exponent, out)))
+        return cls._made(lambda out: lib.wfpsf_sed_create_power_law(
+            choose(SED_UNITS, "unit", unit), exponent, out))
 
     @classmethod
     def black_body(cls, temperature_k):
         """A black body, kelvin."""
-        return cls._of(created(lambda out: lib.wfpsf_sed_create_black_body(temperature_k, out)))
+        return cls._made(lambda out: lib.wfpsf_sed_create_black_body(temperature_k, out))
 
     def redshifted(self, redshift):
         """Another SED, its wavelengths 1 + redshift times as long."""
-        return self._of(created(
-            lambda out: lib.wfpsf_sed_create_redshifted(self, redshift, out)))
+        return self._made(lambda out: lib.wfpsf_sed_create_redshifted(self, redshift, out))
 
     def photon_density(self, wavelength_nm):
         """Photons per unit of wavelength at one wavelength or at each of an array, nm, up to a

@@ -4,7 +4,7 @@ import ctypes
 
 import numpy as np
 
-from ._handle import Handle, created
+from ._handle import Handle
 from ._library import lib
 from ._names import choose, constants_of, integer, text
 from ._options import chosen
@@ -23,8 +23,8 @@ class Study(Handle):
 
     def __init__(self, instrument, sca, **options):
         with chosen(STUDY_OPTIONS, options) as handle:
-            self._own(created(lambda out: lib.wfpsf_study_create(
-                instrument, integer("sca", sca, 32), handle, out)))
+            self._make(lambda out: lib.wfpsf_study_create(
+                instrument, integer("sca", sca, 32), handle, out))
 
     def table(self, name):
         """A table as a dict of columns, arrays of numbers or lists of words:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The PSF all over a detector."""
-from ._handle import Handle, Properties, created
+from ._handle import Handle, Properties
 from ._image import writable
 from ._library import lib
 from ._names import constants_of, integer, of_one_length, text
@@ -28,13 +28,13 @@ class VaryingPSF(Properties, Handle):
 
     def __init__(self, instrument, band, sca, wavelength_nm=0.0, sed=None, **options):
         with chosen(PSF_OPTIONS, options) as handle:
-            self._own(created(lambda out: lib.wfpsf_varying_psf_create(
+            self._make(lambda out: lib.wfpsf_varying_psf_create(
                 instrument, text("band", band), integer("sca", sca, 32), wavelength_nm,
-                sed, handle, out)))
+                sed, handle, out))
 
     def at(self, x, y):
         """The PSF at (x, y), pixels of the detector, the first one's centre at (0, 0)."""
-        return PSF._of(created(lambda out: lib.wfpsf_varying_psf_at(self, x, y, out)))
+        return PSF._made(lambda out: lib.wfpsf_varying_psf_at(self, x, y, out))
 
     def add_stars(self, image, x0, y0, x, y, flux, **options):
         """Adds stars as ``PSF.add_stars`` does, each with the PSF of its own place. (x0, y0) is

@@ -34,7 +34,7 @@ from ._sed import SED
 
 __all__ = ["WfpsfPSF", "getPSF"]
 
-KEPT_MODELS = 32  # PSFs whose handles are kept
+KEPT_MODELS = 16  # PSFs whose handles are kept
 KEPT_GRIDS = 4  # k images of each
 NEAR_ZERO = 0.02  # of the cut-off: where the OTF's slopes at zero are taken
 FLAT_SED = ((1.0, 1e5), (1.0, 1.0))  # photons equally at all wavelengths
