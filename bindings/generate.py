@@ -363,13 +363,16 @@ PYTHON_VALUES = {
 
 
 def python_type(argument):
-    """Handles, arrays and functions are addresses; single outputs are typed pointers."""
+    """Arrays of numbers and functions are addresses; all else is typed, so that ctypes checks it."""
     kind = argument.type
     if kind in PYTHON_VALUES:
         return PYTHON_VALUES[kind]
-    if re.fullmatch(r"wfpsf_\w+\*\*", kind) and not argument.is_array:
-        return "POINTER(c_void_p)"
     base = kind.removeprefix("const ").removesuffix("*")
+    if re.fullmatch(r"wfpsf_\w+", base) and base not in PYTHON_VALUES:
+        return base + "_p"
+    handles = re.fullmatch(r"(wfpsf_\w+)\*(const)?", base)
+    if handles:
+        return f"POINTER({handles.group(1)}_p)"
     if base in PYTHON_VALUES and base != "void" and not argument.is_array:
         return f"POINTER({PYTHON_VALUES[base]})"
     return "c_void_p"
@@ -381,10 +384,16 @@ def python(headers, callback_types):
 # Made by bindings/generate.py from the headers in capi/include/wfpsf: change those.
 \"\"\"The C interface as it stands: every constant and function, described in the C headers.
 
-Handles, arrays of numbers and functions are addresses (``c_void_p``), text is bytes.
+Arrays of numbers and functions are addresses (``c_void_p``), text is bytes.
 \"\"\"
 import ctypes
 from ctypes import CFUNCTYPE, POINTER, c_char_p, c_double, c_int32, c_int64, c_void_p
+
+
+def _handle(name):
+    \"\"\"The type of pointers to an opaque struct.\"\"\"
+    return POINTER(type(name, (ctypes.Structure,), {}))
+
 """.splitlines()
     numbers = project_numbers()
     version = ".".join(numbers[f"PROJECT_VERSION_{part}"] for part in ("MAJOR", "MINOR", "PATCH"))
@@ -394,6 +403,11 @@ from ctypes import CFUNCTYPE, POINTER, c_char_p, c_double, c_int32, c_int64, c_v
             lines += ["", f"# {header.name}"]
         for name, value in header.constants.items():
             lines.append(f"{name} = {value}")
+    lines.append("")
+    types = [python_type(argument) for header in headers for function in header.functions
+             for argument in function.arguments]
+    for name in dict.fromkeys(re.findall(r"\bwfpsf_\w+_p\b", " ".join(types))):
+        lines.append(f'{name} = _handle("{name.removesuffix("_p")}")')
     lines.append("")
     for name, (result, kinds) in callback_types.items():
         types = [result] + kinds

@@ -73,6 +73,17 @@ class Handles(unittest.TestCase):
         self.assertEqual(wfpsf.unweighted_moments(image).flux, 300**2)
         self.assertEqual(len(instrument.bands), 6)
 
+    def test_wrong_kinds(self):
+        instrument = wfpsf.Instrument()
+        with self.assertRaisesRegex(ctypes.ArgumentError, "LP_wfpsf_psf"):
+            wfpsf.OTF(instrument)
+        with self.assertRaises(ctypes.ArgumentError):
+            wfpsf.IPCKernel(0.01).then(instrument)
+        with self.assertRaises(TypeError):
+            wfpsf.psfs(instrument, "J129", 7, 0, 0, [wfpsf.SED.power_law(0), instrument])
+        self.assertEqual(status_of(lambda: wfpsf.psfs(instrument, "J129", 7, 0, 0, [])),
+                         "ERROR_SIZE")
+
     def test_no_copies(self):
         import copy
         import pickle

@@ -14,7 +14,8 @@ class Arrays(unittest.TestCase):
         for dtype in (np.float32, np.float64):
             parent = np.arange(120, dtype=dtype).reshape(10, 12)
             for pixels in (parent, parent[2:9, 1:5], parent[::-2, ::-3], parent[3:4],
-                           parent[:, 3:4], parent.T, np.asfortranarray(parent), np.zeros((0, 3), dtype),
+                           parent[:, 3:4], parent.T, np.asfortranarray(parent),
+                           np.zeros((0, 3), dtype),
                            np.broadcast_to(parent[3:4, 3:4], (1, 1))):
                 image = wfpsf.Image(pixels)
                 self.assertEqual((image.shape, image.dtype), (pixels.shape, pixels.dtype))
@@ -36,7 +37,7 @@ class Arrays(unittest.TestCase):
 
     def test_what_is_no_image(self):
         for wrong in (np.zeros((3, 3), int), [[1.0]], np.zeros((3, 3), ">f8"),
-                      np.zeros((3, 3), complex)):
+                      np.zeros((3, 3), complex), np.ma.zeros((3, 3))):
             with self.assertRaises(TypeError):
                 wfpsf.Image(wrong)
         for wrong in (np.zeros(3), np.zeros((2, 2, 2)),

@@ -6,8 +6,9 @@ import math
 
 import numpy as np
 
+from . import _lib
 from ._handle import Handle, pointers
-from ._image import as_image, writable
+from ._image import Image, as_image, writable
 from ._ipc import EDGES, VaryingIPC
 from ._library import lib
 from ._names import choose, constants_of, integer, numbers
@@ -32,6 +33,7 @@ class Chain(Handle):
     ('gain', [2.0])
     """
 
+    _kind = _lib.wfpsf_chain_p
     _destroy = "wfpsf_chain_destroy"
 
     def __init__(self):
@@ -90,7 +92,7 @@ class Chain(Handle):
         image, before = writable(image), [as_image(exposure) for exposure in previous]
         not_finite, saturated = ctypes.c_int64(), ctypes.c_int64()
         with chosen(CHAIN_OPTIONS, options) as handle:
-            check(lib.wfpsf_chain_apply(self, image, len(before), pointers(before),
+            check(lib.wfpsf_chain_apply(self, image, len(before), pointers(Image._kind, before),
                                         handle, not_finite, saturated))
         return Counts(not_finite.value, saturated.value)
 

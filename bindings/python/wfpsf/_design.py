@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Figures of one's own."""
+from . import _lib
 from ._handle import Handle
 from ._library import lib
 from ._names import integer, numbers, text
@@ -20,6 +21,7 @@ class Design(Handle):
     >>> design.set_detector(pixel_scale_arcsec=0.04, n_pix_x=4096, n_pix_y=2048)
     """
 
+    _kind = _lib.wfpsf_design_p
     _destroy = "wfpsf_design_destroy"
 
     def __init__(self):

@@ -16,14 +16,15 @@ class Handle:
     it. A closed one gives a ``ctypes.ArgumentError`` that says so.
     """
 
+    _kind = None  # the type of its pointer: ctypes refuses another
     _destroy = None  # the name of the function that frees it
 
     def _make(self, call):
         """Owns what ``call(out)`` makes, then checks the status: a warning may be an exception."""
-        out = ctypes.c_void_p()
+        out = self._kind()
         status = call(ctypes.byref(out))
-        if out.value:
-            self._own(out.value)
+        if out:
+            self._own(out)
         check(status)
 
     def _own(self, pointer):
@@ -73,9 +74,9 @@ class Handle:
         raise TypeError("cannot pickle a %s" % type(self).__name__)
 
 
-def pointers(handles):
-    """The array of the handles' pointers. The caller keeps the handles."""
-    return (ctypes.c_void_p * len(handles))(*(handle._as_parameter_ for handle in handles))
+def pointers(kind, handles):
+    """The array of the pointers, of that type, of handles, which the caller keeps."""
+    return (kind * len(handles))(*(handle._as_parameter_ for handle in handles))
 
 
 def get(function, handle, key):

@@ -48,9 +48,12 @@ class Image(Handle):
     Record(oversampling=2, pixel_scale_arcsec=0.0, applied=())
     """
 
+    _kind = _lib.wfpsf_image_p
     _destroy = "wfpsf_image_destroy"
 
     def __init__(self, pixels, oversampling=1, pixel_scale_arcsec=0.0, applied=()):
+        if isinstance(pixels, np.ma.MaskedArray):
+            raise TypeError("pixels is a masked array: give its data, and the mask as ``missing``")
         if not isinstance(pixels, np.ndarray) or pixels.dtype not in PIXEL_TYPES:
             raise TypeError("pixels must be an array of float32 or float64, not %s"
                             % getattr(pixels, "dtype", type(pixels).__name__))

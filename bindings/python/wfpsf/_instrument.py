@@ -5,6 +5,7 @@ import ctypes
 
 import numpy as np
 
+from . import _lib
 from ._design import Design
 from ._handle import Handle
 from ._image import zeros
@@ -29,6 +30,7 @@ class Instrument(Handle):
     Quantity(value=0.11, unit='arcsec/pixel')
     """
 
+    _kind = _lib.wfpsf_instrument_p
     _destroy = "wfpsf_instrument_destroy"
 
     def __init__(self, source="wfirst-afta-c5"):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from ._handle import pointers
-from ._image import as_image, writable, zeros
+from ._image import Image, as_image, writable, zeros
 from ._library import lib
 from ._names import choose, constants_of, numbers
 from ._status import check
@@ -41,9 +41,9 @@ def interleave(images, dx, dy, out=None, convention="detector"):
     ny, nx = flat[0].shape
     out = (zeros((len(rows) * ny, len(rows[0]) * nx), flat[0].dtype) if out is None
            else writable(out))
-    check(lib.wfpsf_image_interleave(len(rows[0]), len(rows), pointers(flat), dx.ctypes.data,
-                                     dy.ctypes.data, choose(DITHERS, "convention", convention),
-                                     out))
+    check(lib.wfpsf_image_interleave(len(rows[0]), len(rows), pointers(Image._kind, flat),
+                                     dx.ctypes.data, dy.ctypes.data,
+                                     choose(DITHERS, "convention", convention), out))
     return out
 
 
@@ -57,5 +57,6 @@ def deinterleave(image, dx, dy, convention="detector"):
     ny, nx = image.shape
     flat = [zeros((ny // n_y, nx // n_x), image.dtype) for _ in range(n_x * n_y)]
     check(lib.wfpsf_image_deinterleave(image, n_x, n_y, dx.ctypes.data, dy.ctypes.data,
-                                       choose(DITHERS, "convention", convention), pointers(flat)))
+                                       choose(DITHERS, "convention", convention),
+                                       pointers(Image._kind, flat)))
     return [flat[row * n_x:(row + 1) * n_x] for row in range(n_y)]

@@ -5,6 +5,7 @@ import ctypes
 
 import numpy as np
 
+from . import _lib
 from ._handle import Handle, get, pointers
 from ._image import as_image, writable, zeros
 from ._library import lib
@@ -89,6 +90,7 @@ class IPCKernel(_IPC):
     [0.02, 0.912, 0.02]
     """
 
+    _kind = _lib.wfpsf_ipc_kernel_p
     _destroy = "wfpsf_ipc_kernel_destroy"
     _apply = "wfpsf_ipc_apply"
     _correct = "wfpsf_ipc_correct"
@@ -213,6 +215,7 @@ class VaryingIPC(_IPC):
     gather, collects by the kernel of the pixel that collects.
     """
 
+    _kind = _lib.wfpsf_varying_ipc_p
     _destroy = "wfpsf_varying_ipc_destroy"
     _apply = "wfpsf_varying_ipc_apply"
     _correct = "wfpsf_varying_ipc_correct"
@@ -247,7 +250,7 @@ class VaryingIPC(_IPC):
         """From an image of regions, numbered from 0, and a kernel for each."""
         regions, kernels = as_image(regions), list(kernels)
         return cls._made(lambda out: lib.wfpsf_varying_ipc_create_regions(
-            regions, len(kernels), pointers(kernels), out))
+            regions, len(kernels), pointers(IPCKernel._kind, kernels), out))
 
     def at(self, x, y):
         """The kernel of pixel (x, y), the first one being (0, 0)."""

@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 
+from . import _lib
 from ._handle import Handle
 from ._image import as_image, zeros
 from ._library import lib
@@ -46,15 +47,16 @@ pixels : visited, all passes together
 
 
 class _Result(Handle):
+    _kind = _lib.wfpsf_moments_p
     _destroy = "wfpsf_moments_destroy"
 
     def __init__(self, measure, strict):
         """Runs ``measure(out)``, which makes a result in most cases of failure too."""
-        out = ctypes.c_void_p()
+        out = self._kind()
         self.status = measure(ctypes.byref(out))
-        if out.value is None:
+        if not out:
             check(self.status)
-        self._own(out.value)
+        self._own(out)
         if strict:
             try:
                 check(self.status)

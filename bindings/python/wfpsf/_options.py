@@ -41,6 +41,7 @@ def options():
 class Options(Handle):
     """The options of one call."""
 
+    _kind = _lib.wfpsf_options_p
     _destroy = "wfpsf_options_destroy"
 
     def __init__(self):

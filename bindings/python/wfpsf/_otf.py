@@ -2,6 +2,7 @@
 """PSFs in k space."""
 import numpy as np
 
+from . import _lib
 from ._handle import Handle, Properties
 from ._image import Image
 from ._library import lib
@@ -28,6 +29,7 @@ class OTF(Properties, Handle):
     (1+0j)
     """
 
+    _kind = _lib.wfpsf_otf_p
     _destroy = "wfpsf_otf_destroy"
     _getter = "wfpsf_otf_get"
     _properties = constants_of("WFPSF_OTF_")

@@ -5,6 +5,7 @@ import ctypes
 
 import numpy as np
 
+from . import _lib
 from ._handle import Handle, Properties, pointers
 from ._image import as_image, writable, zeros
 from ._library import lib
@@ -65,6 +66,7 @@ class PSF(Properties, Handle):
     ((32, 32), ('pixel_response',))
     """
 
+    _kind = _lib.wfpsf_psf_p
     _destroy = "wfpsf_psf_destroy"
     _getter = "wfpsf_psf_get"
     _properties = constants_of("WFPSF_PSF_")
@@ -183,10 +185,10 @@ def psfs(instrument, band, sca, x, y, seds, **options):
     more than one. Arguments as for ``PSF.in_band``."""
     seds = list(seds)
     with chosen(PSF_OPTIONS, options) as handle:
-        out = (ctypes.c_void_p * len(seds))()
+        out = (PSF._kind * len(seds))()
         status = lib.wfpsf_psf_create_chromatic(
             instrument, text("band", band), integer("sca", sca, 32), x, y, len(seds),
-            pointers(seds), handle, out)
+            pointers(_lib.wfpsf_sed_p, seds), handle, out)
         made = [PSF._of(pointer) for pointer in out if pointer]
         check(status)
     return made

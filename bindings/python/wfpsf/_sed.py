@@ -2,6 +2,7 @@
 """Spectral energy distributions."""
 import numpy as np
 
+from . import _lib
 from ._handle import Handle
 from ._library import lib
 from ._names import choose, constants_of, of_one_length
@@ -26,6 +27,7 @@ class SED(Handle):
     [1.0, 2.0]
     """
 
+    _kind = _lib.wfpsf_sed_p
     _destroy = "wfpsf_sed_destroy"
 
     def __init__(self, wavelength_nm, density, unit="photons"):

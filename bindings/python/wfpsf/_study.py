@@ -4,6 +4,7 @@ import ctypes
 
 import numpy as np
 
+from . import _lib
 from ._handle import Handle
 from ._library import lib
 from ._names import choose, constants_of, integer, text
@@ -19,6 +20,7 @@ class Study(Handle):
     """The tables of Kannawadi et al. (2016) for the PSFs of detector ``sca``, made in one go.
     Immutable: threads may share it. Options as for :class:`PSF`."""
 
+    _kind = _lib.wfpsf_study_p
     _destroy = "wfpsf_study_destroy"
 
     def __init__(self, instrument, sca, **options):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The PSF all over a detector."""
+from . import _lib
 from ._handle import Handle, Properties
 from ._image import writable
 from ._library import lib
@@ -22,6 +23,7 @@ class VaryingPSF(Properties, Handle):
     sums of), exact_psfs (that were made for it), memory_bytes, margin (pixels around the detector).
     """
 
+    _kind = _lib.wfpsf_varying_psf_p
     _destroy = "wfpsf_varying_psf_destroy"
     _getter = "wfpsf_varying_psf_get"
     _properties = constants_of("WFPSF_VARYING_PSF_")
