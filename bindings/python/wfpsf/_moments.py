@@ -84,8 +84,7 @@ def _adaptive(image, missing, variance, strict, options):
     variance = None if variance is None else as_image(variance)
     with chosen(MOMENTS_OPTIONS, options) as handle:
         result = _Result(lambda out: lib.wfpsf_moments_measure_masked(
-            image, missing, variance, handle, out),
-            strict)
+            image, missing, variance, handle, out), strict)
     with result:
         yield result
 

@@ -118,8 +118,8 @@ class WfpsfPSF(galsim.GSObject):
     flux : float
     instrument : str
     eps : float
-        Bound of the PSF's error, in units of its peak; native pixels of the default are good to
-        2e-6. 1e-5 takes 0.3 s for a PSF in place of 0.1 s.
+        Bound of the PSF's error, in units of its peak; stamps of 32 x 32 native pixels are good to
+        4e-6 by default. 1e-5 takes 0.3 s for a PSF in place of 0.1 s.
     options
         Those of :class:`wfpsf.PSF` that are numbers, and ``zernikes``.
     gsparams : galsim.GSParams
