@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the low-level Fortran and Julia bindings from the C headers.
+"""Writes the low-level Fortran, Julia and Python bindings from the C headers.
 
 usage: generate.py [output folder]
 
-The output folder (default: the folder of this script) receives fortran/src/wfpsf_c.f90 and
-julia/src/LibWfpsf.jl. A function, list or enum that is not understood is an error.
+The output folder (default: the folder of this script) receives fortran/src/wfpsf_c.f90,
+julia/src/LibWfpsf.jl and python/wfpsf/_lib.py. A function, list or enum that is not understood is
+an error.
 """
 
 import re
@@ -81,9 +82,11 @@ def c_type(text):
 
 
 def callbacks(paths):
-    """Names of all types of pointers to functions."""
+    """All types of pointers to functions: {name: (type of the result, [types of the arguments])}."""
     text = "\n".join(path.read_text() for path in paths)
-    return set(re.findall(r"^typedef [^;]*?\(\*(wfpsf_\w+)\)\(", text, re.MULTILINE))
+    found = re.findall(r"^typedef ([^;]*?)\(\*(wfpsf_\w+)\)\(([^)]*)\);", text, re.MULTILINE)
+    return {name: (c_type(result), [argument.type for argument in arguments(given, "", {})])
+            for result, name, given in found}
 
 
 def arguments(text, documentation, callback_types):
@@ -351,6 +354,86 @@ end""".splitlines()
     return lines
 
 
+# ----------------------------------------------------------------------------------------- Python
+
+PYTHON_VALUES = {
+    "wfpsf_status": "c_int32", "int32_t": "c_int32", "int64_t": "c_int64", "double": "c_double",
+    "void": "None", "const char*": "c_char_p", "char*": "c_char_p",
+    "const char**": "POINTER(c_char_p)"}
+
+
+def python_type(argument):
+    """Arrays of numbers and functions are addresses; all else is typed, so that ctypes checks it."""
+    kind = argument.type
+    if kind in PYTHON_VALUES:
+        return PYTHON_VALUES[kind]
+    base = kind.removeprefix("const ").removesuffix("*")
+    if re.fullmatch(r"wfpsf_\w+", base) and base not in PYTHON_VALUES:
+        return base + "_p"
+    handles = re.fullmatch(r"(wfpsf_\w+)\*(const)?", base)
+    if handles:
+        return f"POINTER({handles.group(1)}_p)"
+    if base in PYTHON_VALUES and base != "void" and not argument.is_array:
+        return f"POINTER({PYTHON_VALUES[base]})"
+    return "c_void_p"
+
+
+def python(headers, callback_types):
+    lines = """\
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Made by bindings/generate.py from the headers in capi/include/wfpsf: change those.
+\"\"\"The C interface as it stands: every constant and function, described in the C headers.
+
+Arrays of numbers and functions are addresses (``c_void_p``), text is bytes.
+\"\"\"
+import ctypes
+from ctypes import CFUNCTYPE, POINTER, c_char_p, c_double, c_int32, c_int64, c_void_p
+
+
+def _handle(name):
+    \"\"\"The type of pointers to an opaque struct.\"\"\"
+    return POINTER(type(name, (ctypes.Structure,), {}))
+
+""".splitlines()
+    numbers = project_numbers()
+    version = ".".join(numbers[f"PROJECT_VERSION_{part}"] for part in ("MAJOR", "MINOR", "PATCH"))
+    lines += ["", f'VERSION = "{version}"  # of the headers']
+    for header in headers:
+        if header.constants:
+            lines += ["", f"# {header.name}"]
+        for name, value in header.constants.items():
+            lines.append(f"{name} = {value}")
+    lines.append("")
+    types = [python_type(argument) for header in headers for function in header.functions
+             for argument in function.arguments]
+    for name in dict.fromkeys(re.findall(r"\bwfpsf_\w+_p\b", " ".join(types))):
+        lines.append(f'{name} = _handle("{name.removesuffix("_p")}")')
+    lines.append("")
+    for name, (result, kinds) in callback_types.items():
+        types = [result] + kinds
+        lines.append(f"{name} = CFUNCTYPE("
+                     + ", ".join(python_type(Argument(kind, "", False)) for kind in types) + ")")
+    lines += ["", "# name: (type of the result, types of the arguments)", "FUNCTIONS = {"]
+    for header in headers:
+        for function in header.functions:
+            types = [python_type(argument) for argument in function.arguments]
+            head = f'    "{function.name}": ({PYTHON_VALUES[function.result]}, ['
+            lines += wrapped(head, types, "]),", continuation="")
+    lines += """\
+}
+
+
+def load(path):
+    \"\"\"The library with all of its functions declared.\"\"\"
+    library = ctypes.CDLL(path)
+    for name, (result, arguments) in FUNCTIONS.items():
+        function = getattr(library, name)
+        function.restype = result
+        function.argtypes = arguments
+    return library""".splitlines()
+    return lines
+
+
 # ------------------------------------------------------------------------------------------------
 
 def main():
@@ -365,7 +448,8 @@ def main():
     callback_types = callbacks(paths)
     headers = [read_header(path, numbers, callback_types) for path in paths]
     for path, lines in ((output / "fortran/src/wfpsf_c.f90", fortran(headers)),
-                        (output / "julia/src/LibWfpsf.jl", julia(headers))):
+                        (output / "julia/src/LibWfpsf.jl", julia(headers)),
+                        (output / "python/wfpsf/_lib.py", python(headers, callback_types))):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text("\n".join(lines) + "\n")
 

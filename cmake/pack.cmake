@@ -11,7 +11,8 @@ string(TIMESTAMP date "%a, %d %b %Y %H:%M:%S +0000" UTC)
 configure_file(${PROJECT_SOURCE_DIR}/cmake/debian_changelog.in
   ${PROJECT_BINARY_DIR}/packages/changelog @ONLY)
 find_program(GZIP gzip)
-foreach(component_and_package library:${library_package} development:libwfpsf-dev)
+foreach(component_and_package
+    library:${library_package} development:libwfpsf-dev python:python3-wfpsf)
   string(REPLACE ":" ";" pair ${component_and_package})
   list(GET pair 0 component)
   list(GET pair 1 package)
@@ -70,7 +71,7 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_GENERATOR DEB)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
-set(CPACK_COMPONENTS_ALL library development)
+set(CPACK_COMPONENTS_ALL library development python)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
@@ -92,6 +93,13 @@ set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS library)
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Roman PSFs, interpixel capacitance and moments, headers
  C headers, Fortran modules, CMake package, pkg-config files, documentation and
  examples of wfpsf.")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-wfpsf)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3, python3-numpy")
+set(CPACK_COMPONENT_PYTHON_DEPENDS library)
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION "Roman PSFs, interpixel capacitance and moments, Python
+ The Python package of wfpsf, on NumPy arrays, and its plugin for GalSim.")
 
 # The tarball needs nothing that it does not hold, but the packages of install_dependencies.sh.
 set(CPACK_SOURCE_GENERATOR TGZ)

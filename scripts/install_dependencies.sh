@@ -5,7 +5,7 @@
 set -euo pipefail
 
 packages=(
-    cmake ninja-build gcc g++ gfortran pkg-config binutils python3
+    cmake ninja-build gcc g++ gfortran pkg-config binutils python3 python3-numpy
     libeigen3-dev libfftw3-dev libcfitsio-dev zlib1g-dev librandom123-dev libgd-dev libgtest-dev
     dpkg-dev file
 )

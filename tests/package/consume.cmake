@@ -1,4 +1,4 @@
-# What a user does with wfpsf: programs in C, C++ and Fortran, with the same output.
+# What a user does with wfpsf: programs in C, C++, Fortran and Python, with the same output.
 function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
@@ -30,7 +30,7 @@ function(consume_by_cmake build)
   run_alike(${build}/consumer_c ${build}/consumer_cpp ${build}/consumer_fortran)
 endfunction()
 
-# The same against an installed tree by pkg-config and the compilers alone.
+# The same against an installed tree by pkg-config and the compilers alone, and in Python.
 function(consume_by_pkgconfig tree build)
   file(MAKE_DIRECTORY ${build})
   set(ENV{PKG_CONFIG_PATH} ${tree}/${LIBDIR}/pkgconfig)
@@ -43,5 +43,9 @@ function(consume_by_pkgconfig tree build)
   run(${CC} ${CONSUMER}/main.c ${wfpsf_flags} ${loader} -o ${build}/c)
   run(${CXX} -std=c++17 ${CONSUMER}/main.cpp ${wfpsf_flags} ${loader} -o ${build}/cpp)
   run(${FC} ${CONSUMER}/main.f90 ${wfpsf-fortran_flags} ${loader} -o ${build}/fortran)
-  run_alike(${build}/c ${build}/cpp ${build}/fortran)
+  set(ENV{PYTHONPATH} ${tree}/lib/python3/dist-packages)
+  if(PYTHON)
+    set(python ${CONSUMER}/main.py)
+  endif()
+  run_alike(${build}/c ${build}/cpp ${build}/fortran ${python})
 endfunction()
