@@ -14,8 +14,8 @@ from ._options import chosen
 from ._status import check
 
 PSF_OPTIONS = ("eps", "struts", "psf_radius", "piston_tilt", "frame", "field_rule", "jitter_xx",
-               "jitter_xy", "jitter_yy", "charge_diffusion", "mask_points", "zernikes", "opd",
-               "memory_limit", "progress")
+               "jitter_xy", "jitter_yy", "charge_diffusion", "mask_points", "pixel_response",
+               "zernikes", "opd", "memory_limit", "progress")
 STAR_OPTIONS = ("threads", "force")
 DRAW_OPTIONS = ("memory_limit", "progress")
 
@@ -48,6 +48,8 @@ class PSF(Properties, Handle):
         Covariance of the telescope's jitter, arcsec^2.
     charge_diffusion : float, optional
         Standard deviation of the detector's, native pixels.
+    pixel_response : int, optional
+        0 leaves out the average over the native pixel.
     progress : callable, optional
         Called now and then by long work with the part that is done, 0 to 1: if it returns False,
         the work stops with a WfpsfError of status ERROR_CANCELLED; if it raises, with that

@@ -13,7 +13,7 @@ from ._status import check
 
 STUDY_TABLES = constants_of("WFPSF_STUDY_")
 STUDY_OPTIONS = ("eps", "struts", "piston_tilt", "frame", "jitter_xx", "jitter_xy", "jitter_yy",
-                 "charge_diffusion", "memory_limit", "zernikes", "opd", "progress")
+                 "charge_diffusion", "pixel_response", "memory_limit", "zernikes", "opd", "progress")
 
 
 class Study(Handle):
