@@ -233,12 +233,12 @@ Case noise_case() {
             }};
 }
 
-Case chain_case(const char *name, bool with_noise, int threads) {
+Case chain_case(const char *name, const char *instrument, bool with_noise, int threads = 1) {
     return {name, "none", 0, 0, [=] {
                 Image image(PixelType::float32, n, n);
                 const Plane<float> in = charges<float>();
                 const View<float> pixels = std::get<View<float>>(image.pixels());
-                const Chain chain = default_chain(Instrument::get("roman-c9"), 139.8);
+                const Chain chain = default_chain(Instrument::get(instrument), 139.8);
                 Measured m;
                 m.error = NAN;
                 m.baseline = "a plain copy";
@@ -261,6 +261,7 @@ std::vector<Case> ipc_cases() {
         ipc_case<float>("IPC 3x3 on 4088^2, float32, in place", 0, kernel, {}, Peer::copy, true),
         ipc_case<double>("IPC 3x3 on 4088^2, float64", 0, kernel, {}),
         ipc_case<double>("IPC 3x3 on 4088^2, float64, in place", 0, kernel, {}, Peer::copy, true),
+        ipc_case<float>("IPC 3x3 on 4088^2, float32, two threads", 0, kernel, {.threads = 2}),
         ipc_case<double>("IPC 3x3 on 4088^2, float64, two threads", 0, kernel, {.threads = 2}),
         ipc_case<float>("IPC 3x3 on 4088^2, float32", 0, kernel, {}, Peer::naive),
         ipc_case<double>("IPC 3x3 on 4088^2, float64", 0, kernel, {}, Peer::fft),
@@ -279,8 +280,15 @@ std::vector<Case> ipc_cases() {
         for (const int64_t order : {1, 2, 4, 8})
             cases.push_back(neumann_case(alpha, order));
     cases.push_back(noise_case());
-    cases.push_back(chain_case("Roman's detector chain on 4088^2, float32", true, 1));
-    cases.push_back(chain_case("Roman's detector chain on 4088^2, float32, means", false, 1));
+    cases.push_back(chain_case("Roman's detector chain on 4088^2, float32", "roman-c9", true));
+    cases.push_back(
+        chain_case("Roman's detector chain on 4088^2, float32, two threads", "roman-c9", true, 2));
+    cases.push_back(
+        chain_case("Roman's detector chain on 4088^2, float32, means", "roman-c9", false));
+    cases.push_back(
+        chain_case("Cycle 5's detector chain on 4088^2, float32", "wfirst-afta-c5", true));
+    cases.push_back(
+        chain_case("Cycle 5's detector chain on 4088^2, float32, means", "wfirst-afta-c5", false));
     return cases;
 }
 
