@@ -3,6 +3,7 @@
 // its corrections; noise against its closed form; a whole chain. Errors are in units of the largest
 // pixel unless they say otherwise; those of IPC are against a long double sum over a sample.
 #include "detector/default_chain.hpp"
+#include "detector/ipc_covariance.hpp"
 #include "detector/ipc_solve.hpp"
 #include "detector/noise.hpp"
 #include "detector/varying_ipc.hpp"
@@ -233,12 +234,52 @@ Case noise_case() {
             }};
 }
 
-Case chain_case(const char *name, bool with_noise, int threads) {
+// The map of the variance, scattered, against realisations: the sum over pixels of squares, in its
+// own standard error. 1 in 16 of a detector's pixels, so that the draws do not take all the time.
+Case varying_noise_case() {
+    return {"variance through varying IPC, 1022^2", "mean variance, in its standard errors", 0, 5,
+            [] {
+                constexpr int64_t size = n / 4;
+                const VaryingIpc ipc = VaryingIpc::parametric(
+                    size, size, {SurfacePolynomial(1, std::array{0.02, 0.005, 0.01}), {}, {}});
+                Plane<double> variance(size, size), map(size, size), noise(size, size);
+                for (int64_t y = 0; y < size; ++y) {
+                    fill_normal({.seed = 3}, 0, y, size, noise.view().row(y));
+                    for (int64_t x = 0; x < size; ++x) {
+                        variance(x, y) = 100 + static_cast<double>(x + 2 * y);
+                        noise(x, y) *= std::sqrt(variance(x, y));
+                    }
+                }
+                Measured m;
+                m.timing = time([&] {
+                    covariance(ipc, std::as_const(variance).view(), {0, 0}, {}, map.view());
+                });
+                m.baseline = "varying IPC itself";
+                m.baseline_s = time([&] {
+                                   convolve(ipc, std::as_const(variance).view(), {}, map.view());
+                               }).median_s;
+                covariance(ipc, std::as_const(variance).view(), {0, 0}, {}, map.view());
+                convolve(ipc, std::as_const(noise).view(), {}, noise.view());
+                double off = 0, squares = 0;
+                for (int64_t y = 0; y < size; ++y)
+                    for (int64_t x = 0; x < size; ++x) {
+                        off += noise(x, y) * noise(x, y) - map(x, y);
+                        squares += map(x, y) * map(x, y);
+                    }
+                // Pixels are correlated: their squares vary together by the correlations' squares.
+                const IpcKernel middle = IpcKernel::parametric(0.02).autocorrelation();
+                const double share = middle.sum_of_squares() / std::pow(middle(0, 0), 2);
+                m.error = std::abs(off) / std::sqrt(2 * squares * share);
+                return m;
+            }};
+}
+
+Case chain_case(const char *name, const char *instrument, bool with_noise, int threads = 1) {
     return {name, "none", 0, 0, [=] {
                 Image image(PixelType::float32, n, n);
                 const Plane<float> in = charges<float>();
                 const View<float> pixels = std::get<View<float>>(image.pixels());
-                const Chain chain = default_chain(Instrument::get("roman-c9"), 139.8);
+                const Chain chain = default_chain(Instrument::get(instrument), 139.8);
                 Measured m;
                 m.error = NAN;
                 m.baseline = "a plain copy";
@@ -261,6 +302,7 @@ std::vector<Case> ipc_cases() {
         ipc_case<float>("IPC 3x3 on 4088^2, float32, in place", 0, kernel, {}, Peer::copy, true),
         ipc_case<double>("IPC 3x3 on 4088^2, float64", 0, kernel, {}),
         ipc_case<double>("IPC 3x3 on 4088^2, float64, in place", 0, kernel, {}, Peer::copy, true),
+        ipc_case<float>("IPC 3x3 on 4088^2, float32, two threads", 0, kernel, {.threads = 2}),
         ipc_case<double>("IPC 3x3 on 4088^2, float64, two threads", 0, kernel, {.threads = 2}),
         ipc_case<float>("IPC 3x3 on 4088^2, float32", 0, kernel, {}, Peer::naive),
         ipc_case<double>("IPC 3x3 on 4088^2, float64", 0, kernel, {}, Peer::fft),
@@ -279,8 +321,16 @@ std::vector<Case> ipc_cases() {
         for (const int64_t order : {1, 2, 4, 8})
             cases.push_back(neumann_case(alpha, order));
     cases.push_back(noise_case());
-    cases.push_back(chain_case("Roman's detector chain on 4088^2, float32", true, 1));
-    cases.push_back(chain_case("Roman's detector chain on 4088^2, float32, means", false, 1));
+    cases.push_back(varying_noise_case());
+    cases.push_back(chain_case("Roman's detector chain on 4088^2, float32", "roman-c9", true));
+    cases.push_back(
+        chain_case("Roman's detector chain on 4088^2, float32, two threads", "roman-c9", true, 2));
+    cases.push_back(
+        chain_case("Roman's detector chain on 4088^2, float32, means", "roman-c9", false));
+    cases.push_back(
+        chain_case("Cycle 5's detector chain on 4088^2, float32", "wfirst-afta-c5", true));
+    cases.push_back(
+        chain_case("Cycle 5's detector chain on 4088^2, float32, means", "wfirst-afta-c5", false));
     return cases;
 }
 

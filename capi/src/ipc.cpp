@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "detector/ipc_covariance.hpp"
 #include "ipc_parts.hpp"
 
 #include <algorithm>
@@ -305,12 +306,11 @@ wfpsf_status wfpsf_ipc_covariance(const wfpsf_ipc_kernel *kernel, const wfpsf_im
         require_pointer(kernel, "kernel");
         require_pointer(variance, "variance");
         require_pointer(out, "out");
-        if (edge != WFPSF_EDGE_ZERO && edge != WFPSF_EDGE_WRAP)
-            fail(WFPSF_ERROR_ARGUMENT, "edge = %d: must be WFPSF_EDGE_ZERO or _WRAP", edge);
         const Convolution how = convolution(variance, edge, options);
-        const Plane<double> products = kernel->kernel.products(lag_x, lag_y);
-        with_pixels(variance, out,
-                    [&](auto from, auto to) { convolve(products.view(), from, how, to); });
+        const IpcKernel applied = in_form(kernel, options);
+        with_pixels(variance, out, [&](auto from, auto to) {
+            covariance(applied, from, {lag_x, lag_y}, how, to);
+        });
         copy_record(variance, out);
     });
 }

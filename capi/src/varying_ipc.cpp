@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "detector/ipc_covariance.hpp"
 #include "ipc_parts.hpp"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -36,11 +38,14 @@ wfpsf_varying_ipc *made(VaryingIpc ipc) {
     return new wfpsf_varying_ipc{std::make_shared<const VaryingIpc>(std::move(ipc))};
 }
 
-VaryingConvolution convolution(const wfpsf_image *in, int32_t edge, const wfpsf_options *options) {
-    if (in->image.oversampling() != 1)
+void require_native(const wfpsf_image *image, const char *name) {
+    if (image->image.oversampling() != 1)
         fail(WFPSF_ERROR_ARGUMENT,
-             "in: oversampling = %d: varying IPC acts on native pixels, oversampling 1",
-             in->image.oversampling());
+             "%s: oversampling = %d: varying IPC acts on native pixels, oversampling 1", name,
+             image->image.oversampling());
+}
+
+VaryingConvolution convolution(int32_t edge, const wfpsf_options *options) {
     return {flag(options, WFPSF_OPTION_IPC_FORM) ? IpcForm::gather : IpcForm::scatter,
             checked_edge(edge), option(options, WFPSF_OPTION_IPC_FILL),
             static_cast<int>(option(options, WFPSF_OPTION_THREADS))};
@@ -129,7 +134,8 @@ wfpsf_status wfpsf_varying_ipc_apply(const wfpsf_varying_ipc *varying, const wfp
         require_pointer(varying, "varying");
         require_pointer(in, "in");
         require_pointer(out, "out");
-        const VaryingConvolution how = convolution(in, edge, options);
+        require_native(in, "in");
+        const VaryingConvolution how = convolution(edge, options);
         in->image.require_not_applied(Effect::ipc, flag(options, WFPSF_OPTION_FORCE));
         with_pixels(in, out, [&](auto from, auto to) { convolve(*varying->ipc, from, how, to); });
         copy_record(in, out);
@@ -147,7 +153,8 @@ wfpsf_status wfpsf_varying_ipc_correct(const wfpsf_varying_ipc *varying, const w
         require_pointer(varying, "varying");
         require_pointer(in, "in");
         require_pointer(out, "out");
-        const VaryingConvolution how = convolution(in, edge, options);
+        require_native(in, "in");
+        const VaryingConvolution how = convolution(edge, options);
         in->image.require_not_applied(Effect::ipc_correction, flag(options, WFPSF_OPTION_FORCE));
         const SolveLimits limits = solve_limits(options);
         Solution solution;
@@ -158,5 +165,49 @@ wfpsf_status wfpsf_varying_ipc_correct(const wfpsf_varying_ipc *varying, const w
         copy_record(in, out);
         out->image.record_applied(Effect::ipc_correction);
         return report(solution, limits, residual, noise_amplification, passes, not_finite);
+    });
+}
+
+wfpsf_status wfpsf_varying_ipc_covariance(const wfpsf_varying_ipc *varying,
+                                          const wfpsf_image *variance, int64_t lag_x, int64_t lag_y,
+                                          int32_t edge, const wfpsf_options *options,
+                                          wfpsf_image *out) {
+    return guarded([&] {
+        require_pointer(varying, "varying");
+        require_pointer(variance, "variance");
+        require_pointer(out, "out");
+        require_native(variance, "variance");
+        const VaryingConvolution how = convolution(edge, options);
+        with_pixels(variance, out, [&](auto from, auto to) {
+            covariance(*varying->ipc, from, {lag_x, lag_y}, how, to);
+        });
+        copy_record(variance, out);
+    });
+}
+
+wfpsf_status wfpsf_varying_ipc_autocorrelation(const wfpsf_varying_ipc *varying,
+                                               const wfpsf_image *variance, int64_t x, int64_t y,
+                                               int32_t edge, const wfpsf_options *options,
+                                               int64_t capacity, double *covariances, int64_t *nx,
+                                               int64_t *ny) {
+    return guarded([&] {
+        require_pointer(varying, "varying");
+        const VaryingIpc &ipc = *varying->ipc;
+        const int64_t columns = 4 * ipc.reach_x() + 1, rows = 4 * ipc.reach_y() + 1;
+        if (capacity != 0 && capacity < columns * rows)
+            fail(WFPSF_ERROR_SIZE, "capacity = %lld: must be 0 or at least %lld",
+                 static_cast<long long>(capacity), static_cast<long long>(columns * rows));
+        if (capacity != 0) {
+            require_pointer(covariances, "covariances");
+            if (variance)
+                require_native(variance, "variance");
+            const Plane<double> found = neighbour_covariances(
+                ipc, variance ? &variance->image : nullptr, x, y, convolution(edge, options));
+            std::copy_n(found.view().data, columns * rows, covariances);
+        }
+        if (nx)
+            *nx = columns;
+        if (ny)
+            *ny = rows;
     });
 }

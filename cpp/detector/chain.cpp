@@ -265,26 +265,35 @@ void convert(const From *from, int64_t from_stride, size_t n, To *__restrict to,
             to[i * to_stride] = static_cast<To>(from[i * from_stride]);
 }
 
-// Runs steps over all pixels, in bands of rows; adds up what `run` returns.
-template <class T, class Run> int64_t for_each_block(View<T> image, int threads, const Run &run) {
+// Runs steps over all pixels, in bands of rows. `run` returns how many it saturated; those that are
+// not finite are counted if that is asked for.
+template <class T, class Run>
+ChainCounts for_each_block(View<T> image, int threads, bool counts_not_finite, const Run &run) {
     const int64_t bands = std::clamp<int64_t>(threads, 1, image.ny);
-    std::vector<int64_t> counts(static_cast<size_t>(bands));
+    std::vector<ChainCounts> counts(static_cast<size_t>(bands));
     for_each_band(bands, [&](int64_t band) {
         std::array<double, block_size> pixels, scratch;
-        int64_t count = 0;
+        ChainCounts count;
         for (int64_t y = image.ny * band / bands; y < image.ny * (band + 1) / bands; ++y)
             for (int64_t x = 0; x < image.nx; x += block_size) {
-                const auto n = static_cast<size_t>(std::min(block_size, image.nx - x));
+                const int64_t n = std::min(block_size, image.nx - x);
+                const auto size = static_cast<size_t>(n);
                 T *first = &image(x, y);
-                convert(first, image.stride_x, n, pixels.data(), 1);
-                count += run(Block{x, y, std::span(pixels).first(n), std::span(scratch).first(n)});
-                convert(pixels.data(), 1, n, first, image.stride_x);
+                convert(first, image.stride_x, size, pixels.data(), 1);
+                count.saturated +=
+                    run(Block{x, y, std::span(pixels).first(size), std::span(scratch).first(size)});
+                convert(pixels.data(), 1, size, first, image.stride_x);
+                if (counts_not_finite)
+                    count.not_finite +=
+                        count_not_finite(View<const T>{first, n, 1, image.stride_x, 0});
             }
         counts[static_cast<size_t>(band)] = count;
     });
-    int64_t total = 0;
-    for (const int64_t count : counts)
-        total += count;
+    ChainCounts total;
+    for (const ChainCounts &count : counts) {
+        total.not_finite += count.not_finite;
+        total.saturated += count.saturated;
+    }
     return total;
 }
 
@@ -309,11 +318,15 @@ ChainCounts run_steps(std::span<const Step> steps, const ChainRun &how, View<T> 
             ++end;
         const PixelSteps together(how, steps.subspan(next, end - next),
                                   static_cast<uint32_t>(next));
-        counts.saturated += for_each_block(image, how.threads,
-                                           [&](const Block &block) { return together.run(block); });
+        const bool is_last = end == steps.size();
+        const ChainCounts found = for_each_block(
+            image, how.threads, is_last, [&](const Block &block) { return together.run(block); });
+        counts.saturated += found.saturated;
+        counts.not_finite = found.not_finite;
         next = end;
     }
-    counts.not_finite = count_not_finite(image);
+    if (steps.empty() || !is_pixelwise(steps.back()))
+        counts.not_finite = count_not_finite(image);
     return counts;
 }
 

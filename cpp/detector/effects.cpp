@@ -77,18 +77,57 @@ using Group = std::array<double, lanes>;
         std::copy_n(group.begin(), row.size() - begin, row.data() + begin);
 }
 
+constexpr size_t chunk = 16 * lanes; // pixels at a time: what is made of them stays in the cache
+
 // (x / base)^exponent for x > 0 while that is within e and 1 / e, else 0; whether all were.
-WFPSF_VECTORISED bool powers_of_ratios(double exponent, double base, const Group &x, Group &power) {
+WFPSF_VECTORISED bool powers_of_ratios(double exponent, double base, const double *x, size_t groups,
+                                       double *__restrict power) {
     constexpr double tiny = std::numeric_limits<double>::min(),
                      huge = std::numeric_limits<double>::max();
     uint64_t left = 0;
-    for (size_t i = 0; i < lanes; ++i) {
+    for (size_t i = 0; i < groups * lanes; ++i) {
         const double ratio = x[i] / base, log_power = exponent * branchless_log(ratio);
         const bool good = (ratio >= tiny) & (ratio <= huge) & (std::fabs(log_power) <= 1);
         power[i] = good ? branchless_exp(log_power) : 0;
         left |= good ? 0 : 1;
     }
     return left == 0;
+}
+
+// What `invert` finds, or NaN where its steps would have to be halved, or are too many.
+WFPSF_VECTORISED void invert_group(std::span<const double> coefficients, const Group &wanted,
+                                   Group &x) {
+    constexpr int most_passes = 20;
+    Group value{}, slope, moving;
+    x.fill(0);
+    slope.fill(1);
+    moving.fill(1);
+    uint64_t any_moving = 1;
+    for (int pass = 0; pass < most_passes && any_moving != 0; ++pass) {
+        Group next, sum{}, sum_slope{}; // by Horner's rule, as in polynomial()
+        for (size_t i = 0; i < lanes; ++i)
+            next[i] = x[i] + moving[i] * ((wanted[i] - value[i]) / slope[i]);
+        for (size_t k = coefficients.size(); k-- > 0;)
+            for (size_t i = 0; i < lanes; ++i) {
+                sum_slope[i] = sum_slope[i] * next[i] + sum[i];
+                sum[i] = sum[i] * next[i] + coefficients[k];
+            }
+        any_moving = 0;
+        for (size_t i = 0; i < lanes; ++i) {
+            const bool still = std::fabs(next[i] - x[i]) > 4e-16 * std::fabs(next[i]);
+            value[i] = next[i] + next[i] * next[i] * sum[i];
+            slope[i] = 1 + next[i] * (2 * sum[i] + next[i] * sum_slope[i]);
+            x[i] = next[i];
+            const bool goes_on = (moving[i] != 0) & still;
+            moving[i] = goes_on & (slope[i] > 0) ? 1 : 0;
+            any_moving |= moving[i] != 0 ? 1 : 0;
+        }
+    }
+    for (size_t i = 0; i < lanes; ++i) {
+        const bool good = (moving[i] == 0) & (slope[i] > 0) &
+                          (std::fabs(value[i] - wanted[i]) <= 1e-12 * std::fabs(wanted[i]));
+        x[i] = good ? x[i] : nan;
+    }
 }
 
 // A difference from itself is 0, but of what is not finite NaN.
@@ -129,17 +168,19 @@ WFPSF_VECTORISED void quantize(double unit, std::span<double> row) {
 void reciprocity_failure(double alpha, double exposure_time, double base_flux,
                          std::span<double> row) {
     const double exponent = alpha / std::numbers::ln10, base = exposure_time * base_flux;
-    for (size_t begin = 0; begin < row.size(); begin += lanes) {
-        Group pixels = load(row, begin), power;
-        if (!powers_of_ratios(exponent, base, pixels, power))
-            for (size_t i = 0; i < lanes; ++i)
+    std::array<double, chunk> pixels, power;
+    for (; !row.empty(); row = row.subspan(std::min(chunk, row.size()))) {
+        const size_t n = std::min(chunk, row.size()), groups = (n + lanes - 1) / lanes;
+        std::copy_n(row.data(), n, pixels.data());
+        std::fill(pixels.data() + n, pixels.data() + groups * lanes, base);
+        if (!powers_of_ratios(exponent, base, pixels.data(), groups, power.data()))
+            for (size_t i = 0; i < n; ++i)
                 if (power[i] == 0)
                     power[i] = pixels[i] == 0  ? 1
                                : pixels[i] < 0 ? nan
                                                : std::pow(pixels[i] / base, exponent);
-        for (size_t i = 0; i < lanes; ++i)
-            pixels[i] *= power[i];
-        store(pixels, begin, row);
+        for (size_t i = 0; i < n; ++i)
+            row[i] *= power[i];
     }
 }
 
@@ -157,8 +198,15 @@ WFPSF_VECTORISED void nonlinearity(std::span<const double> coefficients, std::sp
 }
 
 void nonlinearity_inverse(std::span<const double> coefficients, std::span<double> row) {
-    for (double &pixel : row)
-        pixel = invert(coefficients, pixel);
+    for (size_t begin = 0; begin < row.size(); begin += lanes) {
+        const Group wanted = load(row, begin);
+        Group found;
+        invert_group(coefficients, wanted, found);
+        for (size_t i = 0; i < lanes; ++i)
+            if (std::isnan(found[i]))
+                found[i] = invert(coefficients, wanted[i]);
+        store(found, begin, row);
+    }
 }
 
 int64_t saturate(double level, std::span<double> row) {

@@ -4,8 +4,11 @@
 
 #include "detector/ipc_convolve.hpp"
 #include "error/error.hpp"
+#include "image/overlap.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace wfpsf {
 
@@ -74,6 +77,51 @@ void require_out_size(View<const T> in, const Axis &x, const Axis &y, Edge edge,
         fail(WFPSF_ERROR_SIZE, "out has %lld x %lld pixels: must have %lld x %lld",
              static_cast<long long>(out.nx), static_cast<long long>(out.ny),
              static_cast<long long>(nx), static_cast<long long>(ny));
+}
+
+struct Reach {
+    int64_t x, y;
+};
+
+// Checks the arguments, calls pass(x axis, y axis, whether it is in place, its part of out) unless
+// that part is empty, and sets the pixels that the pass leaves out. `pass` must leave alone what it
+// has yet to read, if it is in place.
+template <class T, class Pass>
+void run_framed(View<const T> in, Reach reach, const Convolution &how, View<T> out,
+                const Pass &pass) {
+    const Edge edge = how.edge;
+    if (edge < Edge::zero || edge > Edge::valid)
+        fail(WFPSF_ERROR_ARGUMENT, "edge = %d: must be 0..%d", static_cast<int>(edge),
+             static_cast<int>(Edge::valid));
+    if (how.tap_step < 1)
+        fail(WFPSF_ERROR_RANGE, "tap_step = %lld: must be at least 1",
+             static_cast<long long>(how.tap_step));
+    if (edge == Edge::fill && std::isfinite(how.fill) &&
+        std::fabs(how.fill) > static_cast<double>(std::numeric_limits<T>::max()))
+        fail(WFPSF_ERROR_RANGE, "fill = %g: too large for the pixel type", how.fill);
+    const Axis x = make_axis(std::max<int64_t>(in.nx, 1), reach.x, how.tap_step, edge);
+    const Axis y = make_axis(std::max<int64_t>(in.ny, 1), reach.y, how.tap_step, edge);
+    require_out_size(in, x, y, edge, out);
+    if (out.empty())
+        return;
+    const bool in_place = are_same(in, out);
+    if (!in_place && shares_memory(in, out))
+        fail(WFPSF_ERROR_OVERLAP,
+             "in and out share memory in part: give out its own, or the very pixels of in");
+
+    if (x.count > 0 && y.count > 0) {
+        const bool bordered = edge == Edge::crop || edge == Edge::fill;
+        const View<T> target =
+            bordered ? View<T>{&out(x.first, y.first), x.count, y.count, out.stride_x, out.stride_y}
+                     : out;
+        pass(x, y, in_place, target);
+    }
+    if (edge == Edge::crop && !in_place)
+        set_border(
+            x, y, [&](int64_t i, int64_t j) { return in(i, j); }, out);
+    if (edge == Edge::fill)
+        set_border(
+            x, y, [&](int64_t, int64_t) { return static_cast<T>(how.fill); }, out);
 }
 
 } // namespace wfpsf

@@ -2,15 +2,12 @@
 #include "detector/ipc_convolve.hpp"
 
 #include "detector/ipc_border.hpp"
-#include "error/error.hpp"
-#include "image/overlap.hpp"
 #include "numerics/bands.hpp"
 #include "numerics/dispatch.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -372,43 +369,14 @@ void run_passes(const TapList &kernel, View<const T> in, const Convolution &how,
 template <class T>
 void convolve_any(View<const double> table, View<const T> in, const Convolution &how,
                   const Addend &addend, View<T> out) {
-    const Edge edge = how.edge;
-    if (edge < Edge::zero || edge > Edge::valid)
-        fail(WFPSF_ERROR_ARGUMENT, "edge = %d: must be 0..%d", static_cast<int>(edge),
-             static_cast<int>(Edge::valid));
-    if (how.tap_step < 1)
-        fail(WFPSF_ERROR_RANGE, "tap_step = %lld: must be at least 1",
-             static_cast<long long>(how.tap_step));
-    if (edge == Edge::fill && std::isfinite(how.fill) &&
-        std::fabs(how.fill) > static_cast<double>(std::numeric_limits<T>::max()))
-        fail(WFPSF_ERROR_RANGE, "fill = %g: too large for the pixel type", how.fill);
-    const Axis x = make_axis(std::max<int64_t>(in.nx, 1), table.nx / 2, how.tap_step, edge);
-    const Axis y = make_axis(std::max<int64_t>(in.ny, 1), table.ny / 2, how.tap_step, edge);
-    require_out_size(in, x, y, edge, out);
-    if (out.empty())
-        return;
-    const bool in_place = are_same(in, out);
-    if (!in_place && shares_memory(in, out))
-        fail(WFPSF_ERROR_OVERLAP,
-             "in and out share memory in part: give out its own, or the very pixels of in");
-
-    if (x.count > 0 && y.count > 0) {
-        const bool bordered = edge == Edge::crop || edge == Edge::fill;
-        const View<T> target =
-            bordered ? View<T>{&out(x.first, y.first), x.count, y.count, out.stride_x, out.stride_y}
-                     : out;
+    const auto pass = [&](const Axis &x, const Axis &y, bool in_place, View<T> target) {
         const TapList kernel(table);
         if (std::is_same_v<T, float> && kernel.is_3x3() && kernel.is_light())
             run_passes<T, T>(kernel, in, how, x, y, in_place, addend, target);
         else
             run_passes<T, double>(kernel, in, how, x, y, in_place, addend, target);
-    }
-    if (edge == Edge::crop && !in_place)
-        set_border(
-            x, y, [&](int64_t i, int64_t j) { return in(i, j); }, out);
-    if (edge == Edge::fill)
-        set_border(
-            x, y, [&](int64_t, int64_t) { return static_cast<T>(how.fill); }, out);
+    };
+    run_framed(in, {table.nx / 2, table.ny / 2}, how, out, pass);
 }
 
 } // namespace

@@ -152,16 +152,6 @@ IpcKernel IpcKernel::autocorrelation() const {
     return composed(flipped());
 }
 
-Plane<double> IpcKernel::products(int64_t lag_x, int64_t lag_y) const {
-    Plane<double> result(nx(), ny());
-    const auto has = [](int64_t i, int64_t lag, int64_t n) { return lag >= -i && lag < n - i; };
-    for (int64_t y = 0; y < ny(); ++y)
-        for (int64_t x = 0; x < nx(); ++x)
-            if (has(x, lag_x, nx()) && has(y, lag_y, ny()))
-                result(x, y) = taps_(x, y) * taps_(x + lag_x, y + lag_y);
-    return result;
-}
-
 IpcKernel IpcKernel::flipped() const {
     IpcKernel result{Plane<double>(nx(), ny())};
     for (int64_t y = 0; y < ny(); ++y)

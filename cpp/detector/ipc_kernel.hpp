@@ -77,10 +77,6 @@ class IpcKernel {
     // after the kernel. A(0) is the share of the variance that stays in a pixel.
     IpcKernel autocorrelation() const;
 
-    // K(d) K(d + lag) at the place of K(d); 0 where there is no such tap. As a convolution it turns
-    // the variances of independent pixels into the covariances of pixels `lag` apart.
-    Plane<double> products(int64_t lag_x, int64_t lag_y) const;
-
     // K(-d): as a convolution it does what K does as a correlation, and the other way round.
     IpcKernel flipped() const;
 

@@ -87,6 +87,16 @@ struct Pending {
         ++count;
     }
 
+    // `n` pixels in a row.
+    void set(uint32_t first_x, const double *means, uint32_t n) {
+        count = n;
+        for (uint32_t i = 0; i < n; ++i) {
+            x[i] = first_x + i;
+            mean[i] = means[i];
+            index[i] = i;
+        }
+    }
+
     // Fills the last group with what is harmless.
     void pad() {
         for (size_t i = count; i < whole_groups(count); ++i) {
@@ -98,6 +108,17 @@ struct Pending {
 
 constexpr double inverted_below = 24;
 
+constexpr size_t steps_at_once = 4;
+
+// 1 / k. Beyond the last are less than 1e-26 of the numbers: only rounding leads there.
+constexpr auto reciprocals = [] {
+    std::array<double, 100> r{};
+    static_assert(r.size() % steps_at_once == 0);
+    for (size_t k = 0; k < r.size(); ++k)
+        r[k] = 1 / static_cast<double>(k + 1);
+    return r;
+}();
+
 // The first k whose cumulative probability reaches a uniform number, for each of one group.
 WFPSF_VECTORISED void poisson_by_inversion(const Row &row, const uint32_t *x, const double *mean,
                                            double *drawn) {
@@ -107,18 +128,17 @@ WFPSF_VECTORISED void poisson_by_inversion(const Row &row, const uint32_t *x, co
         probability[i] = cumulative[i] = branchless_exp(-mean[i]);
         drawn[i] = 0;
     }
-    // Beyond `most` are less than 1e-26 of the numbers: only rounding leads there.
-    constexpr int most = 100;
-    for (int k = 1; k <= most; ++k) {
-        const double inverse = 1.0 / k;
+    // A few steps at a time: those that are not needed change nothing.
+    for (size_t k = 0; k < reciprocals.size(); k += steps_at_once) {
         uint64_t any_above = 0;
-        for (size_t i = 0; i < lanes; ++i) {
-            const bool above = u[i] > cumulative[i];
-            drawn[i] += above ? 1.0 : 0.0;
-            any_above |= above ? 1 : 0;
-            probability[i] *= mean[i] * inverse;
-            cumulative[i] += probability[i];
-        }
+        for (size_t step = 0; step < steps_at_once; ++step)
+            for (size_t i = 0; i < lanes; ++i) {
+                const bool above = u[i] > cumulative[i];
+                drawn[i] += above ? 1.0 : 0.0;
+                any_above |= above ? 1 : 0;
+                probability[i] *= mean[i] * reciprocals[k + step];
+                cumulative[i] += probability[i];
+            }
         if (any_above == 0)
             return;
     }
@@ -249,6 +269,21 @@ void poisson_by_rejection(const Row &row, Pending &pending, double *drawn) {
     }
 }
 
+// How many means are of which sort. Neighbours tend to be of one.
+struct Sorts {
+    uint64_t few, many;
+};
+
+WFPSF_VECTORISED Sorts sorts_of(const double *means, size_t count) {
+    constexpr double most = std::numeric_limits<double>::max();
+    Sorts sorts{0, 0};
+    for (size_t i = 0; i < count; ++i) {
+        sorts.few += (means[i] > 0) & (means[i] < inverted_below) ? 1 : 0;
+        sorts.many += (means[i] >= inverted_below) & (means[i] <= most) ? 1 : 0;
+    }
+    return sorts;
+}
+
 } // namespace
 
 void fill_normal(const RandomSource &source, int64_t x, int64_t y, int64_t count, double *normal) {
@@ -279,12 +314,16 @@ void draw_poisson(const RandomSource &source, int64_t x, int64_t y, int64_t coun
         double *drawn = means + first;
         const auto n = static_cast<uint32_t>(std::min(std::ssize(few.x), count - first));
         few.count = many.count = 0;
-        for (uint32_t i = 0; i < n; ++i) {
-            const double mean = drawn[i];
-            if (mean > 0 && std::isfinite(mean))
-                (mean < inverted_below ? few : many)
-                    .add(static_cast<uint32_t>(source.x0 + x + first + i), mean, i);
-        }
+        const auto first_x = static_cast<uint32_t>(source.x0 + x + first);
+        const Sorts sorts = sorts_of(drawn, n);
+        if (sorts.few == n)
+            few.set(first_x, drawn, n);
+        else if (sorts.many == n)
+            many.set(first_x, drawn, n);
+        else
+            for (uint32_t i = 0; i < n; ++i)
+                if (drawn[i] > 0 && std::isfinite(drawn[i]))
+                    (drawn[i] < inverted_below ? few : many).add(first_x + i, drawn[i], i);
         few.pad();
         for (size_t begin = 0; begin < few.count; begin += lanes) {
             double numbers[lanes];

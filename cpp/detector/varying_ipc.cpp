@@ -212,11 +212,15 @@ VaryingIpc VaryingIpc::of_regions(const Image &regions, std::span<const IpcKerne
     return ipc;
 }
 
-IpcKernel VaryingIpc::kernel(int64_t x, int64_t y) const {
+void VaryingIpc::require_pixel(int64_t x, int64_t y) const {
     if (x < 0 || x >= nx_ || y < 0 || y >= ny_)
         fail(WFPSF_ERROR_RANGE, "pixel (%lld, %lld): must be within %lld x %lld pixels",
              static_cast<long long>(x), static_cast<long long>(y), static_cast<long long>(nx_),
              static_cast<long long>(ny_));
+}
+
+IpcKernel VaryingIpc::kernel(int64_t x, int64_t y) const {
+    require_pixel(x, y);
     if (const auto *regions = std::get_if<Regions>(&model_))
         return regions->kernels[static_cast<size_t>(regions->index(x, y))];
     Plane<double> rows(nx_, 3);

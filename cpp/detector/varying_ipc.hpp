@@ -56,6 +56,7 @@ class VaryingIpc {
     int64_t reach_x() const { return reach_x_; }
     int64_t reach_y() const { return reach_y_; }
 
+    void require_pixel(int64_t x, int64_t y) const; // or WFPSF_ERROR_RANGE
     IpcKernel kernel(int64_t x, int64_t y) const;
 
     // K_q(d) of the pixels q of row y, in the order of the list below: taps(x, k).

@@ -2,6 +2,8 @@
 /* IPC that varies over a detector: made of maps, polynomials and regions, applied, undone. */
 #include "pixels.h"
 
+#include <stdlib.h>
+
 enum { NX = 13, NY = 9, N = NX * NY };
 
 static double ramp[N], primes[N], labels[N];
@@ -132,6 +134,88 @@ static void test_one_kernel(void) {
     wfpsf_image_destroy(from);
 }
 
+/* The share of pixel q's charge that pixel p reads, no charge outside. */
+static double share(int p, int q) {
+    const int dx = abs(p % NX - q % NX), dy = abs(p / NX - q / NX);
+    if (dx > 1 || dy > 1)
+        return 0;
+    return dx && dy ? primes[q] : dx || dy ? ramp[q] : 1 - 4 * (ramp[q] + primes[q]);
+}
+
+static void test_covariance(void) {
+    double given[N], out[N], table[25], white[25];
+    int64_t nx = 0, ny = 0;
+    fill_noise(given, N);
+    wfpsf_varying_ipc *varying = from_maps();
+    wfpsf_image *variance = wrap(given, NX, NY), *to = wrap(out, NX, NY);
+    wfpsf_options *options = NULL;
+    CHECK_OK(wfpsf_options_create(&options));
+    for (int form = WFPSF_IPC_SCATTER; form <= WFPSF_IPC_GATHER; ++form) {
+        CHECK_OK(wfpsf_options_set_integer(options, WFPSF_OPTION_IPC_FORM, form));
+        CHECK_OK(
+            wfpsf_varying_ipc_covariance(varying, variance, 1, 0, WFPSF_EDGE_ZERO, options, to));
+        check_record(to, 1, 0, 0);
+        for (int p = 0; p < N; ++p) {
+            double sum = 0;
+            for (int q = 0; q < N && p % NX < NX - 1; ++q)
+                sum += given[q] *
+                       (form ? share(q, p) * share(q, p + 1) : share(p, q) * share(p + 1, q));
+            CHECK_NEAR(out[p], sum, 65535 * 1e-15);
+        }
+        CHECK_OK(wfpsf_varying_ipc_autocorrelation(varying, variance, 3, 2, WFPSF_EDGE_ZERO,
+                                                   options, 25, table, &nx, &ny));
+        CHECK(nx == 5 && ny == 5);
+        CHECK_NEAR(table[2 * 5 + 3], out[2 * NX + 3], 65535 * 1e-15);
+        CHECK_NEAR(table[2 * 5 + 1], out[2 * NX + 2], 65535 * 1e-15);
+    }
+    CHECK_OK(wfpsf_varying_ipc_autocorrelation(varying, NULL, 0, 0, WFPSF_EDGE_ZERO, NULL, 25,
+                                               white, NULL, NULL));
+    CHECK(white[0] == 0 && white[12] > 0.8 && white[12] < 1);
+    nx = 0;
+    CHECK_OK(wfpsf_varying_ipc_autocorrelation(varying, NULL, 0, 0, WFPSF_EDGE_ZERO, NULL, 0, NULL,
+                                               &nx, NULL));
+    CHECK(nx == 5);
+
+    CHECK_FAILS(WFPSF_ERROR_NULL, "varying",
+                wfpsf_varying_ipc_covariance(NULL, variance, 0, 0, 0, NULL, to));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "variance",
+                wfpsf_varying_ipc_covariance(varying, NULL, 0, 0, 0, NULL, to));
+    CHECK_FAILS(WFPSF_ERROR_NULL, "out",
+                wfpsf_varying_ipc_covariance(varying, variance, 0, 0, 0, NULL, NULL));
+    CHECK_FAILS(
+        WFPSF_ERROR_ARGUMENT, "edge = 1",
+        wfpsf_varying_ipc_covariance(varying, variance, 0, 0, WFPSF_EDGE_REPLICATE, NULL, to));
+    CHECK_FAILS(
+        WFPSF_ERROR_NULL, "varying",
+        wfpsf_varying_ipc_autocorrelation(NULL, NULL, 0, 0, 0, NULL, 25, table, NULL, NULL));
+    CHECK_FAILS(
+        WFPSF_ERROR_NULL, "covariances",
+        wfpsf_varying_ipc_autocorrelation(varying, NULL, 0, 0, 0, NULL, 25, NULL, NULL, NULL));
+    CHECK_FAILS(
+        WFPSF_ERROR_SIZE, "capacity = 24",
+        wfpsf_varying_ipc_autocorrelation(varying, NULL, 0, 0, 0, NULL, 24, table, NULL, NULL));
+    CHECK_FAILS(
+        WFPSF_ERROR_RANGE, "(13, 0)",
+        wfpsf_varying_ipc_autocorrelation(varying, NULL, NX, 0, 0, NULL, 25, table, NULL, NULL));
+    CHECK_FAILS(WFPSF_ERROR_ARGUMENT, "edge = 4",
+                wfpsf_varying_ipc_autocorrelation(varying, NULL, 0, 0, WFPSF_EDGE_FILL, NULL, 25,
+                                                  table, NULL, NULL));
+    wfpsf_image *small = wrap(given, NX, 3);
+    CHECK_FAILS(
+        WFPSF_ERROR_SIZE, "13 x 3",
+        wfpsf_varying_ipc_autocorrelation(varying, small, 0, 0, 0, NULL, 25, table, NULL, NULL));
+    CHECK_FAILS(WFPSF_ERROR_SIZE, "13 x 3",
+                wfpsf_varying_ipc_covariance(varying, small, 0, 0, 0, NULL, small));
+    CHECK_OK(wfpsf_image_set_record(variance, 2, 0, 0));
+    CHECK_FAILS(WFPSF_ERROR_ARGUMENT, "variance: oversampling = 2",
+                wfpsf_varying_ipc_covariance(varying, variance, 0, 0, 0, NULL, to));
+    wfpsf_options_destroy(options);
+    wfpsf_image_destroy(small);
+    wfpsf_image_destroy(variance);
+    wfpsf_image_destroy(to);
+    wfpsf_varying_ipc_destroy(varying);
+}
+
 static void test_not_finite(void) {
     double in[N], out[N];
     int64_t not_finite = -1;
@@ -221,6 +305,7 @@ int main(void) {
     }
     test_maps();
     test_one_kernel();
+    test_covariance();
     test_not_finite();
     test_bad_arguments();
     return checked();

@@ -63,6 +63,11 @@ class IPC(unittest.TestCase):
     def test_varying(self):
         image = np.random.default_rng(1).normal(size=(8, 9))
         alike = wfpsf.VaryingIPC.from_maps(np.full((8, 9), 0.02), np.full((8, 9), 0.002))
+        about = alike.autocorrelation(4, 3)
+        self.assertEqual(about.shape, (5, 5))
+        for dy, dx in ((0, 0), (1, 0), (2, -1)):
+            noise = alike.covariance(np.ones((8, 9)), dx, dy).pixels
+            self.assertAlmostEqual(noise[3, 4], about[2 + dy, 2 + dx], 15)
         kernel = wfpsf.IPCKernel(0.02, 0.002)
         blurred = alike.apply(image)
         np.testing.assert_allclose(blurred.pixels, kernel.apply(image).pixels, atol=1e-14)

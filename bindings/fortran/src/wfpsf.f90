@@ -204,6 +204,8 @@ module wfpsf
         procedure :: get_margin => varying_ipc_get_margin
         procedure :: apply => varying_ipc_apply
         procedure :: correct => varying_ipc_correct
+        procedure :: covariance => varying_ipc_covariance
+        procedure :: get_autocorrelation => varying_ipc_get_autocorrelation
         final :: varying_ipc_finalize
     end type wfpsf_varying_ipc
 
@@ -1246,8 +1248,8 @@ module wfpsf
             character(len=*), intent(inout), optional :: errmsg
         end subroutine kernel_correct
 
-        ! Covariance of pixels (lag_x, lag_y) apart, of noise of that variance before the kernel.
-        ! Option: threads.
+        ! Covariance of pixels (lag_x, lag_y) apart, of noise of that variance before the kernel; 0
+        ! where there is no such pixel. Options: ipc_form, threads.
         module subroutine kernel_covariance(self, variance, lag_x, lag_y, edge, to, options, stat, errmsg)
             class(wfpsf_ipc_kernel), intent(in) :: self
             type(wfpsf_image), intent(in) :: variance
@@ -1266,7 +1268,8 @@ module wfpsf
     ! IPC that varies over a detector.
     private :: varying_ipc_create_maps, varying_ipc_create_polynomials, varying_ipc_create_regions
     private :: varying_ipc_destroy, varying_ipc_get_kernel, varying_ipc_get_margin
-    private :: varying_ipc_apply, varying_ipc_correct, varying_ipc_finalize
+    private :: varying_ipc_apply, varying_ipc_correct, varying_ipc_covariance
+    private :: varying_ipc_get_autocorrelation, varying_ipc_finalize
     interface
         ! Maps of the parameters of kernels; absent: 0. Option: kernel_negative.
         module subroutine varying_ipc_create_maps(self, alpha, alpha_prime, alpha_plus, options, stat, errmsg)
@@ -1348,6 +1351,32 @@ module wfpsf
             integer, intent(out), optional :: stat
             character(len=*), intent(inout), optional :: errmsg
         end subroutine varying_ipc_correct
+
+        ! Covariance of pixels (lag_x, lag_y) apart, of noise of that variance before IPC; 0 where
+        ! there is no such pixel. Options: ipc_form, threads.
+        module subroutine varying_ipc_covariance(self, variance, lag_x, lag_y, edge, to, options, stat, &
+                errmsg)
+            class(wfpsf_varying_ipc), intent(in) :: self
+            type(wfpsf_image), intent(in) :: variance
+            integer, intent(in) :: lag_x, lag_y, edge
+            type(wfpsf_image), intent(inout) :: to
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine varying_ipc_covariance
+
+        ! Covariances of the pixel (x, y) with its neighbours, itself in the middle. Without variance:
+        ! of white noise of variance 1. Option: ipc_form.
+        module subroutine varying_ipc_get_autocorrelation(self, x, y, edge, covariances, variance, &
+                options, stat, errmsg)
+            class(wfpsf_varying_ipc), intent(in) :: self
+            integer, intent(in) :: x, y, edge
+            real(real64), allocatable, intent(out) :: covariances(:, :)
+            type(wfpsf_image), intent(in), optional :: variance
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine varying_ipc_get_autocorrelation
 
         impure elemental module subroutine varying_ipc_finalize(self)
             type(wfpsf_varying_ipc), intent(inout) :: self

@@ -1331,6 +1331,38 @@ module wfpsf_c
             integer(c_int32_t) :: outcome
         end function wfpsf_varying_ipc_correct
 
+        function wfpsf_varying_ipc_covariance(varying, variance, lag_x, lag_y, edge, options, out) &
+            bind(c, name="wfpsf_varying_ipc_covariance") result(outcome)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: varying
+            type(c_ptr), value :: variance
+            integer(c_int64_t), value :: lag_x
+            integer(c_int64_t), value :: lag_y
+            integer(c_int32_t), value :: edge
+            type(c_ptr), value :: options
+            type(c_ptr), value :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_varying_ipc_covariance
+
+        function wfpsf_varying_ipc_autocorrelation(varying, variance, x, y, edge, options, &
+            capacity, covariances, nx, ny) &
+            bind(c, name="wfpsf_varying_ipc_autocorrelation") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: varying
+            type(c_ptr), value :: variance
+            integer(c_int64_t), value :: x
+            integer(c_int64_t), value :: y
+            integer(c_int32_t), value :: edge
+            type(c_ptr), value :: options
+            integer(c_int64_t), value :: capacity
+            real(c_double), intent(inout), optional :: covariances(*)
+            integer(c_int64_t), intent(inout), optional :: nx
+            integer(c_int64_t), intent(inout), optional :: ny
+            integer(c_int32_t) :: outcome
+        end function wfpsf_varying_ipc_autocorrelation
+
         ! chain.h
         function wfpsf_chain_create(out) bind(c, name="wfpsf_chain_create") result(outcome)
             import :: c_int32_t, c_ptr

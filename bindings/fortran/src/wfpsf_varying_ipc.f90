@@ -108,6 +108,37 @@ contains
             to%pointer, residual, noise_amplification, passes, not_finite), stat, errmsg)
     end procedure varying_ipc_correct
 
+    module procedure varying_ipc_covariance
+        call report(wfpsf_varying_ipc_covariance(self%pointer, variance%pointer, &
+            int(lag_x, c_int64_t), int(lag_y, c_int64_t), edge, pointer_of(options), to%pointer), &
+            stat, errmsg)
+    end procedure varying_ipc_covariance
+
+    module procedure varying_ipc_get_autocorrelation
+        type(c_ptr) :: given
+        integer(c_int64_t) :: nx, ny
+        integer :: status
+
+        given = c_null_ptr
+        if (present(variance)) given = variance%pointer
+        nx = 0
+        ny = 0
+        status = ask(0_c_int64_t)
+        allocate (covariances(nx, ny))
+        if (status == wfpsf_ok) status = ask(nx * ny, covariances)
+        call report(status, stat, errmsg)
+
+    contains
+
+        integer function ask(capacity, numbers)
+            integer(c_int64_t), intent(in) :: capacity
+            real(real64), intent(inout), optional :: numbers(:, :)
+
+            ask = wfpsf_varying_ipc_autocorrelation(self%pointer, given, int(x - 1, c_int64_t), &
+                int(y - 1, c_int64_t), edge, pointer_of(options), capacity, numbers, nx, ny)
+        end function ask
+    end procedure varying_ipc_get_autocorrelation
+
     module procedure varying_ipc_finalize
         call self%destroy()
     end procedure varying_ipc_finalize

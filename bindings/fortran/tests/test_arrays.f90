@@ -255,6 +255,7 @@ contains
         type(wfpsf_ipc_kernel) :: kernels(2), kernel
         type(wfpsf_chain) :: chain
         type(wfpsf_image) :: image, alpha, index
+        type(wfpsf_options) :: options
         real(real64), target :: a(9, 7), map(9, 7), label(9, 7)
         real(real64), allocatable :: taps(:, :)
         real(real64) :: margin, residual, noise
@@ -281,6 +282,20 @@ contains
             noise_amplification=noise)
         call expect(maxval(abs(a - numbered(9, 7))) < 1e-11_real64, "undone")
         call expect(residual < 1e-14_real64 .and. noise > 1, "its report")
+        call maps%get_autocorrelation(8, 3, wfpsf_edge_zero, taps)
+        call expect(size(taps, 1) == 5 .and. abs(taps(3, 3) - (0.64_real64 + 4e-4_real64)) < &
+            1e-15_real64, "variance")
+        label = 1
+        call maps%covariance(index, -1, 0, wfpsf_edge_zero, image)
+        call expect(abs(a(8, 3) - taps(2, 3)) < 1e-15_real64 .and. all(a(1, :) == 0), "covariance")
+        call options%create()
+        call options%set(wfpsf_option_ipc_form, wfpsf_ipc_gather)
+        call maps%get_autocorrelation(8, 3, wfpsf_edge_zero, taps, index, options)
+        call expect(abs(taps(3, 3) - 0.65_real64) < 1e-15_real64, "variance, gathered")
+        call maps%get_autocorrelation(10, 3, wfpsf_edge_zero, taps, stat=stat)
+        call expect(stat == wfpsf_error_range, "outside")
+        a = numbered(9, 7)
+        label(:, 5:) = 2
 
         call kernels(1)%create(0.01_real64, 0.0_real64, 0.0_real64)
         call kernels(2)%create(0.02_real64, 0.0_real64, 0.0_real64)

@@ -834,6 +834,21 @@ function wfpsf_varying_ipc_correct(varying, input, edge, options, out, residual,
         varying, input, edge, options, out, residual, noise_amplification, passes, not_finite)
 end
 
+const wfpsf_varying_ipc_covariance_pointer = Ref(C_NULL)
+function wfpsf_varying_ipc_covariance(varying, variance, lag_x, lag_y, edge, options, out)
+    return ccall(wfpsf_varying_ipc_covariance_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int64,
+        Int64, Int32, Ptr{Cvoid}, Ptr{Cvoid}),
+        varying, variance, lag_x, lag_y, edge, options, out)
+end
+
+const wfpsf_varying_ipc_autocorrelation_pointer = Ref(C_NULL)
+function wfpsf_varying_ipc_autocorrelation(varying, variance, x, y, edge, options, capacity,
+    covariances, nx, ny)
+    return ccall(wfpsf_varying_ipc_autocorrelation_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Int64,
+        Int64, Int32, Ptr{Cvoid}, Int64, Ptr{Float64}, Ptr{Int64}, Ptr{Int64}),
+        varying, variance, x, y, edge, options, capacity, covariances, nx, ny)
+end
+
 # chain.h
 const WFPSF_STEP_CLIP_NEGATIVE = Int32(10)
 const WFPSF_STEP_CHARGE_DIFFUSION = Int32(20)
@@ -1246,6 +1261,8 @@ const pointers = [
     :wfpsf_varying_ipc_margin => wfpsf_varying_ipc_margin_pointer,
     :wfpsf_varying_ipc_apply => wfpsf_varying_ipc_apply_pointer,
     :wfpsf_varying_ipc_correct => wfpsf_varying_ipc_correct_pointer,
+    :wfpsf_varying_ipc_covariance => wfpsf_varying_ipc_covariance_pointer,
+    :wfpsf_varying_ipc_autocorrelation => wfpsf_varying_ipc_autocorrelation_pointer,
     :wfpsf_chain_create => wfpsf_chain_create_pointer,
     :wfpsf_chain_create_default => wfpsf_chain_create_default_pointer,
     :wfpsf_chain_destroy => wfpsf_chain_destroy_pointer,

@@ -42,3 +42,6 @@ end
 
 Base.show(io::IO, handle::Handle) =
     print(io, nameof(typeof(handle)), isopen(handle) ? "(...)" : "(closed)")
+
+or_null(::Nothing) = C_NULL
+or_null(something) = something

@@ -185,11 +185,14 @@ other side), or what becomes of pixels within the kernel's reach of it: `:crop` 
 value), `:fill` (they get `ipc_fill`), `:valid` (they are left out, and `out` is smaller by N times
 `size(kernel) .÷ 2` on each side). Options: `ipc_form` (0: scatter, a convolution; 1: gather, a
 correlation), `ipc_fill`, `force` (apply it again), `threads`.
+
+`not_finite`, if it is a `Ref{Int64}`, gets the count of pixels of `out` that are NaN or infinite.
 """
-function apply_ipc!(out::Image, kernel::IPCKernel, image::Image; edge::Symbol = :zero, keywords...)
+function apply_ipc!(out::Image, kernel::IPCKernel, image::Image; edge::Symbol = :zero,
+                    not_finite = nothing, keywords...)
     with_options((:ipc_form, :ipc_fill, :force, :threads), keywords) do options
         check(LibWfpsf.wfpsf_ipc_apply(kernel, image, choose(EDGES, :edge, edge), options, out,
-                                       C_NULL))
+                                       or_null(not_finite)))
     end
     return out
 end
@@ -227,12 +230,13 @@ end
     covariance(kernel, variance, lag_x = 0, lag_y = 0; edge = :zero, options...)
 
 The covariance of pixels `(lag_x, lag_y)` apart after the kernel, from the image of the variances of
-independent pixels before it. `edge` is `:zero` or `:wrap`. Option: `threads`.
+independent pixels before it; 0 where there is no such pixel. `kernel` may be a [`VaryingIPC`](@ref).
+`edge` is `:zero` or `:wrap`. Options: `ipc_form`, `threads`.
 """
 function covariance(kernel::IPCKernel, variance::Image, lag_x::Integer = 0, lag_y::Integer = 0;
                     edge::Symbol = :zero, keywords...)
     out = Image(eltype(variance), size(variance)...)
-    with_options((:threads,), keywords) do options
+    with_options((:ipc_form, :threads), keywords) do options
         check(LibWfpsf.wfpsf_ipc_covariance(kernel, variance, lag_x, lag_y,
                                             choose(EDGES, :edge, edge), options, out))
     end

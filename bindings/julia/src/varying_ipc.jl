@@ -20,9 +20,6 @@ mutable struct VaryingIPC <: Handle
     VaryingIPC(pointer::Ptr{Cvoid}) = finalizer(close, new(pointer))
 end
 
-or_null(::Nothing) = C_NULL
-or_null(something) = something
-
 function VaryingIPC(alpha::Image, alpha_prime = nothing, alpha_plus = nothing; keywords...)
     with_options((:kernel_negative,), keywords) do options
         VaryingIPC(created() do out
@@ -74,10 +71,10 @@ function weakest(varying::VaryingIPC)
 end
 
 function apply_ipc!(out::Image, varying::VaryingIPC, image::Image; edge::Symbol = :zero,
-                    keywords...)
+                    not_finite = nothing, keywords...)
     with_options((:ipc_form, :ipc_fill, :force, :threads), keywords) do options
         check(LibWfpsf.wfpsf_varying_ipc_apply(varying, image, choose(EDGES, :edge, edge), options,
-                                               out, C_NULL))
+                                               out, or_null(not_finite)))
     end
     return out
 end
@@ -96,4 +93,37 @@ function correct_ipc!(out::Image, varying::VaryingIPC, image::Image; edge::Symbo
     end
     return (residual = residual[], noise_amplification = noise[], passes = passes[],
             not_finite = not_finite[])
+end
+
+function covariance(varying::VaryingIPC, variance::Image, lag_x::Integer = 0, lag_y::Integer = 0;
+                    edge::Symbol = :zero, keywords...)
+    out = Image(eltype(variance), size(variance)...)
+    with_options((:ipc_form, :threads), keywords) do options
+        check(LibWfpsf.wfpsf_varying_ipc_covariance(varying, variance, lag_x, lag_y,
+                                                    choose(EDGES, :edge, edge), options, out))
+    end
+    return out
+end
+
+"""
+    autocorrelation(varying, x, y, variance = nothing; edge = :zero, ipc_form = 0)
+
+The covariance of pixel `(x, y)` with its neighbours after varying IPC: with the pixel `(dx, dy)` from
+it at `[dx + (nx+1)÷2, dy + (ny+1)÷2]`. `variance` is the image of the variances of independent pixels
+before IPC; without it they are 1.
+"""
+function autocorrelation(varying::VaryingIPC, x::Integer, y::Integer, variance = nothing;
+                         edge::Symbol = :zero, keywords...)
+    which = choose(EDGES, :edge, edge)
+    given = or_null(variance)
+    nx, ny = Ref{Int64}(), Ref{Int64}()
+    with_options((:ipc_form,), keywords) do options
+        ask(capacity, numbers) =
+            check(LibWfpsf.wfpsf_varying_ipc_autocorrelation(varying, given, x - 1, y - 1, which,
+                                                             options, capacity, numbers, nx, ny))
+        ask(0, C_NULL)
+        numbers = Matrix{Float64}(undef, nx[], ny[])
+        ask(length(numbers), numbers)
+        return numbers
+    end
 end

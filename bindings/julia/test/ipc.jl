@@ -33,6 +33,14 @@ end
     @test status_of(() -> apply_ipc(kernel, result)) == LibWfpsf.WFPSF_ERROR_ALREADY_APPLIED
     @test apply_ipc(kernel, result; force = true) isa Image
 
+    holed = ones(12, 12)
+    holed[6, 7] = NaN
+    count = Ref{Int64}(-1)
+    apply_ipc(kernel, Image(holed); not_finite = count)
+    @test count[] == 9
+    apply_ipc!(result, kernel, image; not_finite = count)
+    @test count[] == 0
+
     corrected = apply_ipc(correction(kernel), result)
     @test record(corrected).applied == [:ipc, :ipc_correction]
 end

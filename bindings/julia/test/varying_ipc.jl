@@ -15,6 +15,22 @@ result = correct_ipc!(seen, varying, seen)
 @test seen.pixels ≈ point
 @test result.residual < 1e-14 && result.noise_amplification > 1
 
+count = Ref{Int64}(-1)
+holed = fill(NaN32, 9, 7)
+apply_ipc(varying, Image(holed); not_finite = count)
+@test count[] == 63
+white = Image(ones(9, 7))
+for form in (0, 1)
+    table = autocorrelation(varying, 8, 3; ipc_form = form)
+    @test size(table) == (5, 5)
+    @test table[3, 3] ≈ (form == 0 ? 0.8^2 + 4 * 0.01^2 : 0.8^2 + 4 * 0.05^2)
+    @test covariance(varying, white; ipc_form = form).pixels[8, 3] ≈ table[3, 3]
+    @test covariance(varying, white, -1, 0; ipc_form = form).pixels[8, 3] ≈ table[2, 3]
+    @test table == autocorrelation(varying, 8, 3, white; ipc_form = form)
+    @test table[5, 3] == 0 && all(covariance(varying, white, 1, 0).pixels[9, :] .== 0)
+end
+@test status_of(() -> autocorrelation(varying, 10, 1)) == LibWfpsf.WFPSF_ERROR_RANGE
+
 kernels = [IPCKernel(0.01), IPCKernel(0.02)]
 regions = VaryingIPC(Image([y > 4 ? 2.0 : 1.0 for x = 1:9, y = 1:7]), kernels)
 @test taps(regions[1, 5]) == taps(kernels[2])

@@ -77,6 +77,18 @@ class _IPC(Handle):
                 residual, noise, passes, not_finite))
         return Correction(out, residual.value, noise.value, passes.value, not_finite.value)
 
+    def covariance(self, variance, lag_x=0, lag_y=0, edge="zero", **options):
+        """The covariance of pixels (lag_x, lag_y) apart after IPC, an image, from the image of the
+        variances of independent pixels before it. ``edge`` is "zero" or "wrap". Options: ipc_form,
+        threads."""
+        variance = as_image(variance)
+        out = zeros(variance.shape, variance.dtype)
+        with chosen(("ipc_form", "threads"), options) as handle:
+            check(getattr(lib, self._covariance)(
+                self, variance, integer("lag_x", lag_x), integer("lag_y", lag_y),
+                choose(EDGES, "edge", edge), handle, out))
+        return out
+
 
 class IPCKernel(_IPC):
     """The 3 x 3 kernels of interpixel capacitance of Kannawadi et al. (2016), Eqs. 7-9. Immutable:
@@ -94,6 +106,7 @@ class IPCKernel(_IPC):
     _destroy = "wfpsf_ipc_kernel_destroy"
     _apply = "wfpsf_ipc_apply"
     _correct = "wfpsf_ipc_correct"
+    _covariance = "wfpsf_ipc_covariance"
 
     def __init__(self, alpha, alpha_prime=0.0, alpha_plus=0.0, **options):
         with chosen(("kernel_negative",), options) as handle:
@@ -186,18 +199,6 @@ class IPCKernel(_IPC):
                                                  response.ctypes.data))
         return response
 
-    def covariance(self, variance, lag_x=0, lag_y=0, edge="zero", **options):
-        """The covariance of pixels (lag_x, lag_y) apart after the kernel, an image, from the image
-        of the variances of independent pixels before it. ``edge`` is "zero" or "wrap". Option:
-        threads."""
-        variance = as_image(variance)
-        out = zeros(variance.shape, variance.dtype)
-        with chosen(("threads",), options) as handle:
-            check(lib.wfpsf_ipc_covariance(self, variance, integer("lag_x", lag_x),
-                                           integer("lag_y", lag_y), choose(EDGES, "edge", edge),
-                                           handle, out))
-        return out
-
 
 def wfc3_deviations():
     """Standard deviations of the taps of ``IPCKernel.wfc3``, an array of 3 x 3."""
@@ -219,6 +220,7 @@ class VaryingIPC(_IPC):
     _destroy = "wfpsf_varying_ipc_destroy"
     _apply = "wfpsf_varying_ipc_apply"
     _correct = "wfpsf_varying_ipc_correct"
+    _covariance = "wfpsf_varying_ipc_covariance"
 
     def __init__(self):
         raise TypeError("made by from_maps(), from_polynomials() or from_regions()")
@@ -263,3 +265,19 @@ class VaryingIPC(_IPC):
         margin, x, y = ctypes.c_double(), ctypes.c_int64(), ctypes.c_int64()
         check(lib.wfpsf_varying_ipc_margin(self, margin, x, y))
         return Weakest(margin.value, x.value, y.value)
+
+    def autocorrelation(self, x, y, variance=None, edge="zero", **options):
+        """The covariance of pixel (x, y) with its neighbours after IPC, an array of odd size: with
+        the pixel (dx, dy) from it at ``[ny // 2 + dy, nx // 2 + dx]``. ``variance`` is the image of
+        the variances of independent pixels before IPC, 1 by default. Option: ipc_form."""
+        given = None if variance is None else as_image(variance)
+        nx, ny = ctypes.c_int64(), ctypes.c_int64()
+        with chosen(("ipc_form",), options) as handle:
+            def ask(capacity, out):
+                check(lib.wfpsf_varying_ipc_autocorrelation(
+                    self, given, integer("x", x), integer("y", y), choose(EDGES, "edge", edge),
+                    handle, capacity, out, nx, ny))
+            ask(0, None)
+            covariances = np.empty((ny.value, nx.value))
+            ask(covariances.size, address(covariances))
+        return covariances

@@ -269,14 +269,16 @@ WFPSF_EXPORT wfpsf_status wfpsf_ipc_correct(const wfpsf_ipc_kernel *kernel, cons
 
 /**
  * Covariance of two pixels after a kernel, for noise that is independent from pixel to pixel before
- * it: cov(p, p + lag) = sum over d of K(d) K(d + lag) variance(p - d).
+ * it: cov(p, p + lag) = sum over d of K(d) K(d + lag) variance(p - d). In a periodic image that is
+ * smaller than the kernel, the lags that come to the same add up.
  *
  * Given:    kernel
  *           variance      per pixel, before the kernel; any record
  *           lag_x, lag_y  native pixels; (0, 0) for the map of the variance
  *           edge          WFPSF_EDGE_ZERO or _WRAP
- *           options       THREADS
- * Returned: out           the covariance, as for wfpsf_ipc_apply(); its record is the input's
+ *           options       IPC_FORM, THREADS
+ * Returned: out           the covariance, 0 where p + lag is not a pixel; as for wfpsf_ipc_apply(),
+ *                         but its record is the input's
  * Status:   ERROR_NULL, ERROR_ARGUMENT, ERROR_SIZE, ERROR_TYPE, ERROR_OVERLAP
  */
 WFPSF_EXPORT wfpsf_status wfpsf_ipc_covariance(const wfpsf_ipc_kernel *kernel,

@@ -127,6 +127,41 @@ WFPSF_EXPORT wfpsf_status wfpsf_varying_ipc_correct(const wfpsf_varying_ipc *var
                                                     double *residual, double *noise_amplification,
                                                     int64_t *passes, int64_t *not_finite);
 
+/**
+ * Covariance of two pixels after varying IPC, for noise that is independent from pixel to pixel
+ * before it. Scattered, cov(p, p + lag) = sum over d of K_q(d) K_q(d + lag) variance(q), q = p - d;
+ * gathered, sum over d of K_p(d) K_(p+lag)(d - lag) variance(p + d). Arguments, output and status
+ * as of wfpsf_ipc_covariance().
+ *
+ * Given:    variance  of the detector's size, oversampling 1
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_varying_ipc_covariance(const wfpsf_varying_ipc *varying,
+                                                       const wfpsf_image *variance, int64_t lag_x,
+                                                       int64_t lag_y, int32_t edge,
+                                                       const wfpsf_options *options,
+                                                       wfpsf_image *out);
+
+/**
+ * The autocorrelation of noise about one pixel: its covariance, after varying IPC, with each pixel
+ * that it may covary with, and with itself.
+ *
+ * Given:    variance     as for wfpsf_varying_ipc_covariance(); NULL: 1 everywhere
+ *           x, y         within the detector
+ *           edge         WFPSF_EDGE_ZERO or _WRAP
+ *           options      IPC_FORM
+ *           capacity     numbers that covariances has room for; 0 to ask for the size alone
+ * Returned: covariances  cov(p, p + d) at [(dy + ny/2) * nx + dx + nx/2]; 0 where p + d is not a
+ *                        pixel; untouched if capacity is 0
+ *           nx, ny       one less than twice the size of the largest kernel; may be NULL
+ * Status:   ERROR_NULL, ERROR_ARGUMENT, ERROR_RANGE, ERROR_SIZE
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_varying_ipc_autocorrelation(const wfpsf_varying_ipc *varying,
+                                                            const wfpsf_image *variance, int64_t x,
+                                                            int64_t y, int32_t edge,
+                                                            const wfpsf_options *options,
+                                                            int64_t capacity, double *covariances,
+                                                            int64_t *nx, int64_t *ny);
+
 #ifdef __cplusplus
 }
 #endif

@@ -291,6 +291,44 @@ TEST(Effects, NonlinearityOfAnyOrderIsUndone) {
     EXPECT_TRUE(std::isnan(values[3]));
 }
 
+// Some of them need the slow way, beside others that do not.
+TEST(Effects, APixelsBitsDoNotDependOnItsNeighbours) {
+    std::vector<double> hard{NAN,  INFINITY, -INFINITY, 0,     -0.0, 1e-310,
+                             -1e7, 4.1e5,    5e5,       1e300, -3};
+    for (int i = 0; i < 700; ++i)
+        hard.push_back(100.5 * i - 2e3);
+    const auto expect_same = [&](const auto &effect) {
+        std::vector<double> together = hard;
+        effect(std::span(together));
+        for (size_t i = 0; i < hard.size(); ++i) {
+            double alone[] = {hard[i]};
+            effect(std::span(alone));
+            EXPECT_TRUE(alone[0] == together[i] ||
+                        (std::isnan(alone[0]) && std::isnan(together[i])))
+                << hard[i] << ": " << alone[0] << ", " << together[i];
+        }
+    };
+    const std::vector<double> coefficients = {-6e-7, 2e-13, -3e-19}, quadratic = {-6e-7};
+    expect_same([&](std::span<double> row) { nonlinearity_inverse(coefficients, row); });
+    expect_same([&](std::span<double> row) { nonlinearity_inverse(quadratic, row); });
+    expect_same([&](std::span<double> row) { reciprocity_failure(0.0065, 139.8, 1, row); });
+}
+
+// Whether means are all small, all large or mixed: a pixel draws what it draws alone.
+TEST(Effects, PoissonNumbersDoNotDependOnNeighbours) {
+    std::vector<double> means;
+    for (int i = 0; i < 900; ++i)
+        means.push_back(i < 300 ? 0.05 * i : i < 600 ? 10.0 * i : (i % 7) * 8.0);
+    means[5] = means[400] = NAN;
+    std::vector<double> together = means;
+    draw_poisson({.seed = 3}, 10, 2, std::ssize(together), together.data());
+    for (size_t i = 0; i < means.size(); ++i) {
+        double alone = means[i];
+        draw_poisson({.seed = 3}, 10 + static_cast<int64_t>(i), 2, 1, &alone);
+        EXPECT_TRUE(alone == together[i] || std::isnan(means[i])) << i;
+    }
+}
+
 TEST(Effects, ReciprocityFailureOfNoChargeIsNone) {
     double row[] = {0, -0.0, 139.8, -1};
     reciprocity_failure(0.0065, 139.8, 1, row);
