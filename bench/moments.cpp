@@ -123,8 +123,8 @@ Case derivative_case(bool second) {
                 const AdaptiveMoments at = measured(0);
                 const auto derived = [&] {
                     const Sensitivity sensitivity(image.view(), at, options, {}, second);
-                    const WeightedSums sums = sensitivity.sums_of(std::as_const(change).view());
-                    const HyperDual sigma = shape_of(sensitivity.along(sums, sums)).sigma;
+                    const ImageChange along = sensitivity.change_of(std::as_const(change).view());
+                    const HyperDual sigma = shape_of(sensitivity.along(along, along)).sigma;
                     return second ? sigma.dab : sigma.da;
                 };
                 const auto difference = [&](double h) {

@@ -111,12 +111,12 @@ StarSlopes::StarSlopes(const IpcStar &star, const Plane<double> &image,
       sums_(weighted_sums(image.view(), solution.weight, full_reach2)),
       sensitivity_(image.view(), solution, study_moments, {}, true) {}
 
-StarShape<HyperDual> StarSlopes::shape(const WeightedSums &sums) const {
-    return native(sensitivity_.along(sums, sums), oversampling_);
+StarShape<HyperDual> StarSlopes::shape(const ImageChange &change) const {
+    return native(sensitivity_.along(change, change), oversampling_);
 }
 
 StarShape<HyperDual> StarSlopes::along(View<const double> change) const {
-    return shape(sensitivity_.sums_of(change));
+    return shape(sensitivity_.change_of(change));
 }
 
 // The change is half of C : grad grad I. In whitened coordinates C becomes L^-1 C L^-T, and each
@@ -140,7 +140,7 @@ StarShape<HyperDual> StarSlopes::along_blur(const Covariance &variance) const {
                               b * at(a + 1, b - 1) + at(a + 1, b + 1);
             sums.sum[a][b] = (ctt * tt + 2 * ctv * tv + cvv * vv) / 2;
         }
-    return shape(sums);
+    return shape({sums});
 }
 
 } // namespace wfpsf

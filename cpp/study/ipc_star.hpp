@@ -75,7 +75,7 @@ class StarSlopes {
     StarShape<HyperDual> along_blur(const Covariance &variance) const;
 
   private:
-    StarShape<HyperDual> shape(const WeightedSums &sums) const;
+    StarShape<HyperDual> shape(const ImageChange &change) const;
 
     double oversampling_;
     Gaussian weight_;

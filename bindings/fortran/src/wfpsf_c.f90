@@ -79,6 +79,7 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_option_moments_background = 360
     integer(c_int32_t), parameter :: wfpsf_option_moments_variance = 370
     integer(c_int32_t), parameter :: wfpsf_option_moments_restart = 380
+    integer(c_int32_t), parameter :: wfpsf_option_moments_covariance_order = 390
     integer(c_int32_t), parameter :: wfpsf_option_size_total_flux = 400
     integer(c_int32_t), parameter :: wfpsf_option_size_bandwidth = 410
     integer(c_int32_t), parameter :: wfpsf_option_size_eps = 420
@@ -224,6 +225,7 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_moments_amplitude = 200
     integer(c_int32_t), parameter :: wfpsf_moments_last_step = 210
     integer(c_int32_t), parameter :: wfpsf_moments_pixels = 220
+    integer(c_int32_t), parameter :: wfpsf_moments_background = 230
 
     ! size.h
     integer(c_int32_t), parameter :: wfpsf_size_bandlimited = 1
