@@ -68,7 +68,8 @@ TEST(Masked, AGaussianOnABackgroundIsFound) {
             EXPECT_LE(whitened_distance(truth, m.weight), 1e-9 + m.error_estimate)
                 << sigma << " " << background;
             EXPECT_NEAR(m.background, background, 1e-8 * (1 + std::abs(background)));
-            EXPECT_NEAR(m.flux, 50 * sigma * sigma, 1e-7 * sigma * sigma * (1 + background));
+            EXPECT_NEAR(m.flux, 50 * sigma * sigma,
+                        1e-7 * sigma * sigma * (1 + std::abs(background)));
         }
     // All pixels tell of it, so that none may be bad.
     Plane<double> image = gaussian_image(64, 64, gaussian_of(20, 20, 2, 0, 0));
@@ -190,7 +191,10 @@ TEST(Masked, HardImagesGetAStatus) {
         Plane<double> image = gaussian_image(21, 21, gaussian_of(10, 10, 2, 0, 0), -1);
         Plane<float> missing(21, 21);
         missing(3, 3) = 1;
-        EXPECT_EQ(status(image, missing.view()), WFPSF_ERROR_MOMENTS_FLUX);
+        if (method == MomentsMethod::with_background) // to which the corners are bright
+            EXPECT_LT(status(image, missing.view()), 0);
+        else
+            EXPECT_EQ(status(image, missing.view()), WFPSF_ERROR_MOMENTS_FLUX);
         image = gaussian_image(21, 21, gaussian_of(10, 10, 2, 0, 0));
         image(10, 11) = nan;
         EXPECT_EQ(status(image, missing.view()), WFPSF_ERROR_NOT_FINITE);
