@@ -150,7 +150,7 @@ Case ee50_case(double bandwidth, double eps) {
                 const auto ee50 = [](const Plane<double> &image, int64_t N,
                                      const EncircledOptions &options) {
                     const double centre = static_cast<double>(image.nx() - 1) / 2 + 0.3;
-                    return encircled_radius(image.view(), centre, centre, 0.5, 1, options).radius /
+                    return encircled_radius(image.view(), centre, centre, 0.5, 1, options).value /
                            static_cast<double>(N);
                 };
                 const Plane<double> image = star(512, 32);

@@ -123,8 +123,8 @@ class TabulatedFilter {
         }
     }
 
-    // The share of the kernel around a sample that lies before x: the table's polynomials integrated
-    // from row to row, tap after tap.
+    // The share of the kernel around a sample that lies before x: the table's polynomials
+    // integrated from row to row, tap after tap.
     void tabulate_integral() {
         static const GaussLegendre rule(points / 2);
         double step[points] = {};
@@ -139,12 +139,8 @@ class TabulatedFilter {
         const auto kernel = [&](int n) { // at that distance, from the table; 0 outside
             if (n <= 0 || n >= count)
                 return 0.0;
-            const int tap = n / rows_ , rest = n % rows_;
-            // distance = tap - (half_width - 1) - row/rows, so that row = rows - rest, one tap on.
-            return rest == 0 ? kernel_[(4 + static_cast<size_t>(rows_)) * taps_ +
-                                       static_cast<size_t>(tap)]
-                             : kernel_[static_cast<size_t>(4 + rows_ - rest) * taps_ +
-                                       static_cast<size_t>(tap)];
+            const int tap = n / rows_, row = rows_ - n % rows_;
+            return kernel_[static_cast<size_t>(4 + row) * taps_ + static_cast<size_t>(tap)];
         };
         std::vector<double> along(static_cast<size_t>(count) + 1);
         for (int n = 0; n < count; ++n) {
@@ -158,8 +154,8 @@ class TabulatedFilter {
         for (int row = -4; row <= rows_ + 4; ++row)
             for (size_t i = 0; i < taps_; ++i) {
                 const int n = (static_cast<int>(i) + 1) * rows_ - row;
-                integral_.push_back(
-                    1 - along[static_cast<size_t>(std::clamp(n, 0, count))] / whole);
+                integral_.push_back(1 -
+                                    along[static_cast<size_t>(std::clamp(n, 0, count))] / whole);
             }
     }
 };
@@ -185,9 +181,9 @@ template <class T> double brightest_border(View<const T> image) {
 // through (0, R sin t), 2 R cos t long, and
 //   energy = integral of R cos t (integral of I along the chord) dt, -pi/2 < t < pi/2,
 // which is half of that over the whole circle, of a smooth periodic function: equal steps converge
-// exponentially. Rows of samples are filtered along y to a chord, and summed along it; near its ends
-// the sum's weights are the integral of the interpolator's kernel. The image at the chords' ends
-// gives the integral along the circle.
+// exponentially. Rows of samples are filtered along y to a chord, and summed along it; near its
+// ends the sum's weights are the integral of the interpolator's kernel. The image at the chords'
+// ends gives the integral along the circle.
 template <class T> class DiscIntegral {
   public:
     // A second integral with spare = true has a finer filter and other nodes.
@@ -224,13 +220,13 @@ template <class T> class DiscIntegral {
             const Chord chord = along(y_ + radius * up, x_ - half, x_ + half, with_slope);
             sums.energy += half * chord.integral;
             sums.density += chord.left + chord.right;
-            sums.slope += up * chord.slope_y + half / radius * chord.slope_x;
+            sums.slope += up * chord.slope_y + std::cos(angle) * chord.slope_x;
             lost_ += half * chord.lost;
             lost_at_ends_ = std::max(lost_at_ends_, chord.lost_at_ends);
         }
         const double width = pi / chords;
         sums.energy *= width;
-        sums.slope = radius > 0 ? width * (sums.density + radius * sums.slope) : NAN;
+        sums.slope = width * (sums.density + radius * sums.slope);
         sums.density *= width * radius;
         lost_ *= width;
         return sums;
@@ -239,8 +235,8 @@ template <class T> class DiscIntegral {
     // The image between the samples; those beyond the border count as zero.
     double value(double x, double y) { return along(y, x, x, false).left; }
 
-    // By how much the last disc's energy and a value on its circle could be wrong, if samples beyond
-    // the border were one.
+    // By how much the last disc's energy and a value on its circle could be wrong, if samples
+    // beyond the border were one.
     double lost() const { return lost_; }
     double lost_at_ends() const { return lost_at_ends_; }
 
@@ -269,8 +265,8 @@ template <class T> class DiscIntegral {
             fill_row(begin, end, y0, slope_y_, slope_row_);
         Chord chord;
         const auto at_end = [&](double x, double sign) {
-            const int64_t x0 =
-                filter_.weights(x, wx_.data(), with_slope ? slope_x_.data() : nullptr, step_.data());
+            const int64_t x0 = filter_.weights(
+                x, wx_.data(), with_slope ? slope_x_.data() : nullptr, step_.data());
             const double *samples = row_.data() + (x0 - begin);
             (sign > 0 ? chord.right : chord.left) = product(wx_, samples);
             chord.integral += sign * product(step_, samples);
@@ -360,19 +356,19 @@ double difference(double one, double other) {
 }
 
 template <class T>
-Circle circle_of(View<const T> image, double x, double y, double radius,
-                 const EncircledOptions &options, bool with_slope) {
-    DiscIntegral<T> integral(image, x, y, options, false), spare(image, x, y, options, true);
+DiscLight light_within(DiscIntegral<T> &integral, View<const T> image, double x, double y,
+                       double radius, const EncircledOptions &options, bool with_slope) {
+    DiscIntegral<T> spare(image, x, y, options, true);
     const auto sums = integral.within(radius, with_slope);
     const auto other = spare.within(radius, with_slope);
     const double border = brightest_border(image);
     const double at_ends =
         border * 2 * pi * std::max(integral.lost_at_ends(), spare.lost_at_ends());
-    Circle result;
+    DiscLight result;
     result.energy = checked_energy(sums.energy);
     result.density = sums.density;
-    result.energy_error = difference(sums.energy, other.energy) +
-                          border * std::max(integral.lost(), spare.lost());
+    result.energy_error =
+        difference(sums.energy, other.energy) + border * std::max(integral.lost(), spare.lost());
     result.density_error = difference(sums.density, other.density) + radius * at_ends;
     if (with_slope) {
         result.slope = sums.slope;
@@ -386,11 +382,12 @@ Circle circle_of(View<const T> image, double x, double y, double radius,
 } // namespace
 
 template <class T>
-Circle circle(View<const T> image, double x, double y, double radius,
-              const EncircledOptions &options) {
+DiscLight disc_light(View<const T> image, double x, double y, double radius,
+                     const EncircledOptions &options) {
     check(x, y, options);
     check_radius(image, x, y, radius);
-    return circle_of(image, x, y, radius, options, true);
+    DiscIntegral<T> integral(image, x, y, options, false);
+    return light_within(integral, image, x, y, radius, options, true);
 }
 
 template <class T>
@@ -433,44 +430,40 @@ Estimated encircled_radius(View<const T> image, double x, double y, double fract
         if (std::abs(newton) <= 1e-8 * radius)
             break;
     }
-    const Circle there = circle_of(image, x, y, radius, options, false);
-    return {radius, there.energy_error / std::abs(there.density) + rounding * radius};
+    const DiscLight there = light_within(integral, image, x, y, radius, options, false);
+    return {radius,
+            (there.energy_error + std::abs(there.energy - target)) / std::abs(there.density) +
+                rounding * radius};
 }
 
-Estimated radius_slope(const Estimated &radius, const Circle &image, double fraction,
-                       const HeldLight &a) {
-    const double d = image.density;
-    const double slope = (fraction * a.total - a.circle.energy) / d;
-    const double by_radius = (a.circle.density + slope * image.slope) / d;
-    return {slope, (a.circle.energy_error + rounding * std::abs(fraction * a.total) +
+Estimated radius_slope(const Estimated &radius, const DiscLight &image, const HeldChange &a) {
+    const double d = image.density, slope = (a.held - a.disc.energy) / d;
+    const double by_radius = (a.disc.density + slope * image.slope) / d;
+    return {slope, (a.disc.energy_error + rounding * std::abs(a.held) +
                     std::abs(slope) * image.density_error) /
                            std::abs(d) +
                        std::abs(by_radius) * radius.error_estimate};
 }
 
-// With E the energy and E' = density, (E + s E_A + t E_B)(R) = fraction (total + ...) differentiated
-// by s, and by s and t:
-//   E' R_s + E_A = ...,   E' R_st + E'' R_s R_t + E_A' R_t + E_B' R_s = 0.
-Estimated radius_curvature(const Estimated &radius, const Circle &image, double fraction,
-                           const HeldLight &a, const HeldLight &b,
-                           const EncircledOptions &options) {
-    const Estimated by_a = radius_slope(radius, image, fraction, a);
-    const Estimated by_b = radius_slope(radius, image, fraction, b);
+// (E + s E_A + t E_B)(R) = held + s held_A + t held_B, differentiated by s, and by s and t:
+//   E' R_s + E_A = held_A,   E' R_st + E'' R_s R_t + E_A' R_t + E_B' R_s = 0.
+Estimated radius_curvature(const Estimated &radius, const DiscLight &image, const HeldChange &a,
+                           const HeldChange &b, const EncircledOptions &options) {
+    const Estimated by_a = radius_slope(radius, image, a), by_b = radius_slope(radius, image, b);
     const double ra = by_a.value, rb = by_b.value, d = image.density;
-    const double sum = image.slope * ra * rb + a.circle.density * rb + b.circle.density * ra;
-    const double by_ra = image.slope * rb + b.circle.density;
-    const double by_rb = image.slope * ra + a.circle.density;
-    // The third derivative of a band-limited image's energy is at most about its wavenumber squared
-    // times the first.
+    const double sum = image.slope * ra * rb + a.disc.density * rb + b.disc.density * ra;
+    // By what the sum is made of: the two slopes, and the radius. The energy's third derivative is
+    // at most about the wavenumber squared times the first.
+    const double by_ra = image.slope * rb + b.disc.density;
+    const double by_rb = image.slope * ra + a.disc.density;
     const double k = 2 * pi * options.bandwidth;
-    const double by_radius = k * k * std::abs(d * ra * rb) + std::abs(a.circle.slope * rb) +
-                             std::abs(b.circle.slope * ra) + std::abs(sum * image.slope / d);
-    const double error = image.slope_error * std::abs(ra * rb) +
-                         a.circle.density_error * std::abs(rb) +
-                         b.circle.density_error * std::abs(ra) +
-                         std::abs(by_ra) * by_a.error_estimate +
-                         std::abs(by_rb) * by_b.error_estimate +
-                         std::abs(sum / d) * image.density_error + by_radius * radius.error_estimate;
+    const double by_radius = k * k * std::abs(d * ra * rb) + std::abs(a.disc.slope * rb) +
+                             std::abs(b.disc.slope * ra) + std::abs(sum * image.slope / d);
+    const double error =
+        image.slope_error * std::abs(ra * rb) + a.disc.density_error * std::abs(rb) +
+        b.disc.density_error * std::abs(ra) + std::abs(by_ra) * by_a.error_estimate +
+        std::abs(by_rb) * by_b.error_estimate + std::abs(sum / d) * image.density_error +
+        by_radius * radius.error_estimate;
     return {-sum / d, error / std::abs(d) + rounding * std::abs(sum / d)};
 }
 
@@ -479,11 +472,12 @@ Estimated ring_mean(View<const T> image, double x, double y, double radius,
                     const EncircledOptions &options) {
     check(x, y, options);
     check_radius(image, x, y, radius);
+    DiscIntegral<T> integral(image, x, y, options, false);
     if (radius > 0) {
-        const Circle c = circle_of(image, x, y, radius, options, false);
-        return {c.density / (2 * pi * radius), c.density_error / (2 * pi * radius)};
+        const DiscLight light = light_within(integral, image, x, y, radius, options, false);
+        return {light.density / (2 * pi * radius), light.density_error / (2 * pi * radius)};
     }
-    DiscIntegral<T> integral(image, x, y, options, false), spare(image, x, y, options, true);
+    DiscIntegral<T> spare(image, x, y, options, true);
     const double value = checked_energy(integral.value(x, y));
     return {value, difference(value, spare.value(x, y))};
 }
@@ -532,18 +526,18 @@ Estimated profile_fwhm(View<const T> image, double x, double y, const EncircledO
     }
     // The profile's slope, (E'' - E'/r)/(2 pi r), turns its error into one of the radius.
     const double radius = (low + high) / 2;
-    const Circle c = circle_of(image, x, y, radius, options, true);
-    const double slope = (c.slope - c.density / radius) / (2 * pi * radius);
-    const double error = c.density_error / (2 * pi * radius) + centre.error_estimate / 2;
+    const DiscLight light = light_within(integral, image, x, y, radius, options, true);
+    const double slope = (light.slope - light.density / radius) / (2 * pi * radius);
+    const double error = light.density_error / (2 * pi * radius) + centre.error_estimate / 2;
     return {low + high, 2 * error / std::abs(slope) + (high - low) + rounding * high};
 }
 
-template Circle circle(View<const float>, double, double, double, const EncircledOptions &);
+template DiscLight disc_light(View<const float>, double, double, double, const EncircledOptions &);
 template Estimated encircled_radius(View<const float>, double, double, double, double,
                                     const EncircledOptions &);
 template Estimated ring_mean(View<const float>, double, double, double, const EncircledOptions &);
 template Estimated profile_fwhm(View<const float>, double, double, const EncircledOptions &);
-template Circle circle(View<const double>, double, double, double, const EncircledOptions &);
+template DiscLight disc_light(View<const double>, double, double, double, const EncircledOptions &);
 template Estimated encircled_radius(View<const double>, double, double, double, double,
                                     const EncircledOptions &);
 template Estimated ring_mean(View<const double>, double, double, double, const EncircledOptions &);

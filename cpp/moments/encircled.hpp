@@ -18,7 +18,7 @@ struct EncircledOptions {
 // What a circle around (x, y) holds. Errors are the differences from a second evaluation (other
 // nodes, a finer filter), which also show content above the bandwidth, plus what samples as bright
 // as the border's could add if they went on beyond it. (Samples beyond the border count as zero.)
-struct Circle {
+struct DiscLight {
     double energy = 0;  // inside, in the units of the samples' sum
     double density = 0; // its derivative by the radius: the integral along the circle
     double slope = 0;   // the second one
@@ -28,8 +28,8 @@ struct Circle {
 // Throws Error: SIZE_NOT_REACHED if the circle leaves the image (passes its outermost samples),
 // NOT_FINITE if a sample in or near the circle is not finite, RANGE on bad options.
 template <class T>
-Circle circle(View<const T> image, double x, double y, double radius,
-              const EncircledOptions &options = {});
+DiscLight disc_light(View<const T> image, double x, double y, double radius,
+                     const EncircledOptions &options = {});
 
 // A length, pixels, or a mean.
 struct Estimated {
@@ -42,22 +42,18 @@ template <class T>
 Estimated encircled_radius(View<const T> image, double x, double y, double fraction, double total,
                            const EncircledOptions &options = {});
 
-// What that radius answers to: an image, or a change of it, on the circle, and the part of the total
-// that the circle holds, which changes too.
-struct HeldLight {
-    Circle circle;
-    double total = 0;
-};
-
 // Derivatives of the radius R along a change A of the image, and the mixed one along A and B, by
-// implicit differentiation of energy(R) = fraction total, which is linear in the image.
-Estimated radius_slope(const Estimated &radius, const Circle &image, double fraction,
-                       const HeldLight &a);
-Estimated radius_curvature(const Estimated &radius, const Circle &image, double fraction,
-                           const HeldLight &a, const HeldLight &b,
-                           const EncircledOptions &options = {});
+// implicit differentiation of energy(R) = held, which is linear in the image: each with what is on
+// its disc of radius R, and with the light that the circle is to hold.
+struct HeldChange {
+    DiscLight disc;
+    double held = 0; // fraction times the change of the total
+};
+Estimated radius_slope(const Estimated &radius, const DiscLight &image, const HeldChange &a);
+Estimated radius_curvature(const Estimated &radius, const DiscLight &image, const HeldChange &a,
+                           const HeldChange &b, const EncircledOptions &options = {});
 
-// The mean of the image on the circle: its radial profile. Throws as circle().
+// The mean of the image on the circle: its radial profile. Throws as disc_light().
 template <class T>
 Estimated ring_mean(View<const T> image, double x, double y, double radius,
                     const EncircledOptions &options = {});

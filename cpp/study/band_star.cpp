@@ -75,7 +75,7 @@ EncircledOptions BandStar::encircled(double eps) const {
 }
 
 double BandStar::half_light(const Plane<double> &of, double x, double y) const {
-    return encircled_radius(of.view(), x, y, 0.5, light, encircled()).radius /
+    return encircled_radius(of.view(), x, y, 0.5, light, encircled()).value /
            static_cast<double>(star.oversampling());
 }
 
@@ -88,7 +88,9 @@ double BandStar::error(const AdaptiveMoments &m) const {
 HalfLightSlopes::HalfLightSlopes(const BandStar &star)
     : s_(star), precise_(star.encircled(1e-10)),
       radius_(encircled_radius(star.image.view(), star.nominal.weight.x, star.nominal.weight.y, 0.5,
-                               star.light, precise_)) {
+                               star.light, precise_)),
+      disc_(disc_light(star.image.view(), star.nominal.weight.x, star.nominal.weight.y,
+                       radius_.value, precise_)) {
     const auto oversampling = static_cast<double>(star.star.oversampling());
     const Gaussian &w = star.nominal.weight;
     const auto slope = [&](double x, double y) {
@@ -106,10 +108,10 @@ HalfLightSlopes::HalfLightSlopes(const BandStar &star)
 
 double HalfLightSlopes::along(View<const double> change, const StarShape<HyperDual> &shape) const {
     const Gaussian &w = s_.nominal.weight;
-    const double gained = encircled_energy(change, w.x, w.y, radius_.radius, precise_).energy;
+    const HeldChange gained{disc_light(change, w.x, w.y, radius_.value, precise_)};
     const auto oversampling = static_cast<double>(s_.star.oversampling());
     const double moved = oversampling * (by_x_ * shape.x.da + by_y_ * shape.y.da);
-    return (moved - gained / radius_.density) / radius_.radius;
+    return (moved + radius_slope(radius_, disc_, gained).value) / radius_.value;
 }
 
 } // namespace wfpsf

@@ -65,8 +65,9 @@ class HalfLightSlopes {
   private:
     const BandStar &s_;
     EncircledOptions precise_;
-    EncircledRadius radius_; // samples
-    double by_x_, by_y_;     // of it by the centre, samples
+    Estimated radius_; // samples
+    DiscLight disc_;
+    double by_x_, by_y_; // of it by the centre, samples
 };
 
 // A solution, or an Error that names the band.

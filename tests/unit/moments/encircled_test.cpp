@@ -68,17 +68,16 @@ TEST(Encircled, ObscuredAiryAgreesWithItsClosedForm) {
             const double r = turns / bandwidth;
             if (r > 100)
                 continue;
-            const EncircledEnergy result =
-                encircled_energy(view_of(image), x, y, r, {.bandwidth = bandwidth});
+            const DiscLight result = disc_light(view_of(image), x, y, r, {.bandwidth = bandwidth});
             EXPECT_NEAR(result.energy, airy.encircled(r), 1e-11) << bandwidth << " " << r;
             EXPECT_NEAR(result.density, 2 * pi * r * airy.at(r), 1e-11);
-            EXPECT_LE(std::abs(result.energy - airy.encircled(r)), result.error_estimate);
-            EXPECT_LE(result.error_estimate, 1e-10);
+            EXPECT_LE(std::abs(result.energy - airy.encircled(r)), result.energy_error);
+            EXPECT_LE(result.energy_error, 1e-10);
         }
         for (const double fraction : {0.3, 0.5, 0.8}) {
-            const EncircledRadius found =
+            const Estimated found =
                 encircled_radius(view_of(image), x, y, fraction, 1, {.bandwidth = bandwidth});
-            EXPECT_NEAR(airy.encircled(found.radius), fraction, 1e-11);
+            EXPECT_NEAR(airy.encircled(found.value), fraction, 1e-11);
             EXPECT_LE(found.error_estimate, 1e-8);
         }
     }
@@ -88,8 +87,8 @@ TEST(Encircled, LooserEpsKeepsItsWord) {
     const ObscuredAiry airy{0.25, 0.2};
     const Plane<double> image = airy.image(120, 60.4, 59.3);
     for (double eps = 1e-2; eps > 1e-12; eps /= 10) {
-        const EncircledEnergy result =
-            encircled_energy(view_of(image), 60.4, 59.3, 9.3, {.bandwidth = 0.25, .eps = eps});
+        const DiscLight result =
+            disc_light(view_of(image), 60.4, 59.3, 9.3, {.bandwidth = 0.25, .eps = eps});
         const double error = std::abs(result.energy - airy.encircled(9.3));
         EXPECT_LE(error, eps * airy.at(0) * pi * 9.3 * 9.3);
     }
@@ -99,23 +98,21 @@ TEST(Encircled, GaussianIsTheSameInEveryView) {
     const double sigma = 4, x = 40.3, y = 38.8;
     const Plane<double> image = gaussian_image(80, 80, gaussian_of(x, y, sigma, 0, 0), 5);
     const double expected = sigma * std::sqrt(2 * std::log(2.0));
-    const EncircledRadius r = encircled_radius(view_of(image), x, y, 0.5, 5);
-    EXPECT_NEAR(r.radius, expected, 1e-11);
+    const Estimated r = encircled_radius(view_of(image), x, y, 0.5, 5);
+    EXPECT_NEAR(r.value, expected, 1e-11);
     const View<const double> flipped{&image(79, 79), 80, 80, -1, -80};
-    EXPECT_NEAR(encircled_radius(flipped, 79 - x, 79 - y, 0.5, 5).radius, expected, 1e-11);
+    EXPECT_NEAR(encircled_radius(flipped, 79 - x, 79 - y, 0.5, 5).value, expected, 1e-11);
     Plane<float> single(80, 80);
     add_gaussian(single.view(), gaussian_of(x, y, sigma, 0, 0), 5);
-    EXPECT_NEAR(encircled_radius(std::as_const(single).view(), x, y, 0.5, 5).radius, expected,
-                1e-5);
+    EXPECT_NEAR(encircled_radius(std::as_const(single).view(), x, y, 0.5, 5).value, expected, 1e-5);
 }
 
 // Content above the stated bandwidth shows in the error estimate.
 TEST(Encircled, UndersampledImagesAreFoundOut) {
     const ObscuredAiry airy{0.45, 0.3};
     const Plane<double> image = airy.image(60, 30.2, 29.7);
-    const EncircledEnergy result =
-        encircled_energy(view_of(image), 30.2, 29.7, 6.3, {.bandwidth = 0.1});
-    EXPECT_GT(result.error_estimate, 1e-6);
+    const DiscLight result = disc_light(view_of(image), 30.2, 29.7, 6.3, {.bandwidth = 0.1});
+    EXPECT_GT(result.energy_error, 1e-6);
 }
 
 TEST(Encircled, ErrorsNameTheCause) {
@@ -131,19 +128,18 @@ TEST(Encircled, ErrorsNameTheCause) {
     };
     EXPECT_EQ(thrown([&] { encircled_radius(v, 20, 20, 0.5, 3); }), WFPSF_ERROR_SIZE_NOT_REACHED);
     EXPECT_EQ(thrown([&] { encircled_radius(v, -5, 20, 0.5, 1); }), WFPSF_ERROR_SIZE_NOT_REACHED);
-    EXPECT_EQ(thrown([&] { encircled_energy(v, 20, 20, 19.5); }), WFPSF_ERROR_SIZE_NOT_REACHED);
-    EXPECT_EQ(thrown([&] { encircled_energy(v, 20, 20, -1); }), WFPSF_ERROR_RANGE);
+    EXPECT_EQ(thrown([&] { disc_light(v, 20, 20, 19.5); }), WFPSF_ERROR_SIZE_NOT_REACHED);
+    EXPECT_EQ(thrown([&] { disc_light(v, 20, 20, -1); }), WFPSF_ERROR_RANGE);
     EXPECT_EQ(thrown([&] { encircled_radius(v, 20, 20, 0, 1); }), WFPSF_ERROR_RANGE);
     EXPECT_EQ(thrown([&] { encircled_radius(v, 20, 20, 0.5, 0); }), WFPSF_ERROR_RANGE);
-    EXPECT_EQ(thrown([&] { encircled_energy(v, 20, 20, 1, {.bandwidth = 0.5}); }),
-              WFPSF_ERROR_RANGE);
-    EXPECT_EQ(thrown([&] { encircled_energy(v, 20, 20, 1, {.eps = 0}); }), WFPSF_ERROR_RANGE);
-    EXPECT_EQ(thrown([&] { encircled_energy(v, NAN, 20, 1); }), WFPSF_ERROR_NOT_FINITE);
+    EXPECT_EQ(thrown([&] { disc_light(v, 20, 20, 1, {.bandwidth = 0.5}); }), WFPSF_ERROR_RANGE);
+    EXPECT_EQ(thrown([&] { disc_light(v, 20, 20, 1, {.eps = 0}); }), WFPSF_ERROR_RANGE);
+    EXPECT_EQ(thrown([&] { disc_light(v, NAN, 20, 1); }), WFPSF_ERROR_NOT_FINITE);
     const Plane<double> zero(40, 40);
     EXPECT_EQ(thrown([&] { encircled_radius(view_of(zero), 20, 20, 0.5, 1); }),
               WFPSF_ERROR_SIZE_NOT_REACHED);
     image(3, 3) = std::numeric_limits<double>::infinity();
-    EXPECT_EQ(thrown([&] { encircled_energy(v, 20, 20, 1); }), WFPSF_ERROR_NOT_FINITE);
+    EXPECT_EQ(thrown([&] { disc_light(v, 20, 20, 1); }), WFPSF_ERROR_NOT_FINITE);
 }
 
 } // namespace
