@@ -1630,21 +1630,23 @@ module wfpsf_c
             integer(c_int32_t) :: outcome
         end function wfpsf_size_fwhm
 
-        function wfpsf_size_ee_radius_derivative(image, change, x, y, fraction, options, &
-            derivative) bind(c, name="wfpsf_size_ee_radius_derivative") result(outcome)
+        function wfpsf_size_ee_radius_derivative(image, change, second, x, y, fraction, options, &
+            derivative, error) bind(c, name="wfpsf_size_ee_radius_derivative") result(outcome)
             import :: c_double, c_int32_t, c_ptr
             implicit none
             type(c_ptr), value :: image
             type(c_ptr), value :: change
+            type(c_ptr), value :: second
             real(c_double), value :: x
             real(c_double), value :: y
             real(c_double), value :: fraction
             type(c_ptr), value :: options
             real(c_double), intent(inout), optional :: derivative
+            real(c_double), intent(inout), optional :: error
             integer(c_int32_t) :: outcome
         end function wfpsf_size_ee_radius_derivative
 
-        function wfpsf_size_profile(image, x, y, count, radii, options, profile) &
+        function wfpsf_size_profile(image, x, y, count, radii, options, profile, errors) &
             bind(c, name="wfpsf_size_profile") result(outcome)
             import :: c_double, c_int32_t, c_int64_t, c_ptr
             implicit none
@@ -1655,10 +1657,11 @@ module wfpsf_c
             real(c_double), intent(in), optional :: radii(*)
             type(c_ptr), value :: options
             real(c_double), intent(inout), optional :: profile(*)
+            real(c_double), intent(inout), optional :: errors(*)
             integer(c_int32_t) :: outcome
         end function wfpsf_size_profile
 
-        function wfpsf_size_profile_fwhm(image, x, y, options, fwhm) &
+        function wfpsf_size_profile_fwhm(image, x, y, options, fwhm, error) &
             bind(c, name="wfpsf_size_profile_fwhm") result(outcome)
             import :: c_double, c_int32_t, c_ptr
             implicit none
@@ -1667,6 +1670,7 @@ module wfpsf_c
             real(c_double), value :: y
             type(c_ptr), value :: options
             real(c_double), intent(inout), optional :: fwhm
+            real(c_double), intent(inout), optional :: error
             integer(c_int32_t) :: outcome
         end function wfpsf_size_profile_fwhm
 

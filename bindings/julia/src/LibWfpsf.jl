@@ -1065,24 +1065,25 @@ function wfpsf_size_fwhm(image, x, y, fwhm)
 end
 
 const wfpsf_size_ee_radius_derivative_pointer = Ref(C_NULL)
-function wfpsf_size_ee_radius_derivative(image, change, x, y, fraction, options, derivative)
-    return ccall(wfpsf_size_ee_radius_derivative_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Float64,
-        Float64, Float64, Ptr{Cvoid}, Ptr{Float64}),
-        image, change, x, y, fraction, options, derivative)
+function wfpsf_size_ee_radius_derivative(image, change, second, x, y, fraction, options, derivative,
+    error)
+    return ccall(wfpsf_size_ee_radius_derivative_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid},
+        Ptr{Cvoid}, Float64, Float64, Float64, Ptr{Cvoid}, Ptr{Float64}, Ptr{Float64}),
+        image, change, second, x, y, fraction, options, derivative, error)
 end
 
 const wfpsf_size_profile_pointer = Ref(C_NULL)
-function wfpsf_size_profile(image, x, y, count, radii, options, profile)
+function wfpsf_size_profile(image, x, y, count, radii, options, profile, errors)
     return ccall(wfpsf_size_profile_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64, Int64,
-        Ptr{Float64}, Ptr{Cvoid}, Ptr{Float64}),
-        image, x, y, count, radii, options, profile)
+        Ptr{Float64}, Ptr{Cvoid}, Ptr{Float64}, Ptr{Float64}),
+        image, x, y, count, radii, options, profile, errors)
 end
 
 const wfpsf_size_profile_fwhm_pointer = Ref(C_NULL)
-function wfpsf_size_profile_fwhm(image, x, y, options, fwhm)
+function wfpsf_size_profile_fwhm(image, x, y, options, fwhm, error)
     return ccall(wfpsf_size_profile_fwhm_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64,
-        Ptr{Cvoid}, Ptr{Float64}),
-        image, x, y, options, fwhm)
+        Ptr{Cvoid}, Ptr{Float64}, Ptr{Float64}),
+        image, x, y, options, fwhm, error)
 end
 
 # study.h

@@ -91,7 +91,7 @@ TEST(Study, SlopesOfHalfLight) {
                 const Plane<double> image = s.star.image(ipc);
                 const Gaussian w = solved(s.star, image, s.band).weight;
                 return encircled_radius(image.view(), w.x, w.y, 0.5, s.light, s.encircled(1e-12))
-                    .radius;
+                    .value;
             };
             const auto slope = [&](double h) { return (ee50(h) - ee50(-h)) / (2 * h) / ee50(0); };
             const auto change = s.star.change(p);
