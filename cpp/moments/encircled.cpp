@@ -7,6 +7,7 @@
 #include "numerics/quadrature.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -39,33 +40,83 @@ WFPSF_VECTORISED void sum_rows(View<const double> rows, const double *w, double 
     weighted_rows(rows, w, out);
 }
 
-double product(const std::vector<double> &w, const double *samples) {
-    double sum = 0;
-    for (size_t i = 0; i < w.size(); ++i)
-        sum += w[i] * samples[i];
-    return sum;
+WFPSF_VECTORISED double product(const double *w, const double *samples, size_t n) {
+    double part[8] = {};
+    size_t i = 0;
+    for (; i + 8 <= n; i += 8)
+        for (size_t k = 0; k < 8; ++k)
+            part[k] += w[i + k] * samples[i + k];
+    for (; i < n; ++i)
+        part[0] += w[i] * samples[i];
+    return ((part[0] + part[1]) + (part[2] + part[3])) +
+           ((part[4] + part[5]) + (part[6] + part[7]));
+}
+
+WFPSF_VECTORISED double sum_of(const double *samples, int64_t n) {
+    double part[8] = {};
+    int64_t i = 0;
+    for (; i + 8 <= n; i += 8)
+        for (int64_t k = 0; k < 8; ++k)
+            part[k] += samples[i + k];
+    for (; i < n; ++i)
+        part[0] += samples[i];
+    return ((part[0] + part[1]) + (part[2] + part[3])) +
+           ((part[4] + part[5]) + (part[6] + part[7]));
 }
 
 // Lagrange's polynomials on ten points at steps of one, between the fifth and the sixth, and their
 // derivatives.
 constexpr int points = 10;
+
+// 1/((k - m) ...) over all other points m.
+constexpr std::array<double, points> lagrange_scale = [] {
+    std::array<double, points> scale{};
+    for (int k = 0; k < points; ++k) {
+        double f = 1;
+        for (int m = 0; m < points; ++m)
+            if (m != k)
+                f *= k - m;
+        scale[static_cast<size_t>(k)] = 1 / f;
+    }
+    return scale;
+}();
+
 struct Lagrange {
     double value[points], slope[points];
 
-    explicit Lagrange(double u) { // 0..1 from the fifth point
+    Lagrange(double u, bool with_slope) { // 0..1 from the fifth point
+        double after[points + 1] = {}, after_slope[points + 1] = {};
+        after[points] = 1;
+        for (int k = points - 1; k >= 0; --k) {
+            after[k] = after[k + 1] * (u + 4 - k);
+            if (with_slope)
+                after_slope[k] = after_slope[k + 1] * (u + 4 - k) + after[k + 1];
+        }
+        double before = 1, before_slope = 0;
         for (int k = 0; k < points; ++k) {
-            double f = 1, df = 0;
-            for (int m = 0; m < points; ++m)
-                if (m != k) {
-                    const double factor = (u + 4 - m) / (k - m);
-                    df = df * factor + f / (k - m);
-                    f *= factor;
-                }
-            value[k] = f;
-            slope[k] = df;
+            const double scale = lagrange_scale[static_cast<size_t>(k)];
+            value[k] = scale * before * after[k + 1];
+            slope[k] = scale * (before_slope * after[k + 1] + before * after_slope[k + 1]);
+            before_slope = before_slope * (u + 4 - k) + before;
+            before *= u + 4 - k;
         }
     }
 };
+
+// out = factor * sum of l[k] times the k-th of ten rows.
+WFPSF_VECTORISED void combine(const double *rows, size_t taps, const double *l, double factor,
+                              double *out) {
+    for (size_t i = 0; i < taps; ++i)
+        out[i] = 0;
+    for (size_t k = 0; k < points; k += 5) { // five at a time, to load and store less
+        const double *r = rows + k * taps;
+        const double a = factor * l[k], b = factor * l[k + 1], c = factor * l[k + 2],
+                     d = factor * l[k + 3], e = factor * l[k + 4];
+        for (size_t i = 0; i < taps; ++i)
+            out[i] += a * r[i] + b * r[taps + i] + c * r[2 * taps + i] + d * r[3 * taps + i] +
+                      e * r[4 * taps + i];
+    }
+}
 
 // The interpolator's kernel, its derivative and its integral from a table over the fraction of a
 // sample: an exponential and a root for every tap would take most of the time. Between the table's
@@ -91,12 +142,12 @@ class TabulatedFilter {
     int64_t weights(double x, double *value, double *slope, double *integral) const {
         const double whole = std::floor(x), place = (x - whole) * rows_;
         const int row = std::min(static_cast<int>(place), rows_ - 1);
-        const Lagrange l(place - row);
-        combine(kernel_, row, l.value, 1, value);
+        const Lagrange l(place - row, slope != nullptr);
+        combine(row_of(kernel_, row), taps_, l.value, 1, value);
         if (slope)
-            combine(kernel_, row, l.slope, rows_, slope);
+            combine(row_of(kernel_, row), taps_, l.slope, rows_, slope);
         if (integral)
-            combine(integral_, row, l.value, 1, integral);
+            combine(row_of(integral_, row), taps_, l.value, 1, integral);
         return static_cast<int64_t>(whole) - (half_width_ - 1);
     }
     size_t taps() const { return taps_; }
@@ -111,16 +162,8 @@ class TabulatedFilter {
         return static_cast<double>(tap) - (half_width_ - 1) - static_cast<double>(row) / rows_;
     }
 
-    void combine(const std::vector<double> &table, int row, const double *l, double factor,
-                 double *out) const {
-        const double *first = table.data() + static_cast<size_t>(row) * taps_;
-        for (size_t i = 0; i < taps_; ++i)
-            out[i] = 0;
-        for (size_t k = 0; k < points; ++k) {
-            const double weight = factor * l[k];
-            for (size_t i = 0; i < taps_; ++i)
-                out[i] += weight * first[k * taps_ + i];
-        }
+    const double *row_of(const std::vector<double> &table, int row) const {
+        return table.data() + static_cast<size_t>(row) * taps_; // and the nine after it
     }
 
     // The share of the kernel around a sample that lies before x: the table's polynomials
@@ -130,7 +173,7 @@ class TabulatedFilter {
         double step[points] = {};
         for (int i = 0; i < rule.size(); ++i) {
             const auto k = static_cast<size_t>(i);
-            const Lagrange l((1 + rule.x[k]) / 2);
+            const Lagrange l((1 + rule.x[k]) / 2, false);
             for (int m = 0; m < points; ++m)
                 step[m] += rule.w[k] / 2 * l.value[m];
         }
@@ -257,7 +300,8 @@ template <class T> class DiscIntegral {
 
     Chord along(double y, double left, double right, bool with_slope) {
         const auto taps = static_cast<int64_t>(filter_.taps());
-        const int64_t y0 = filter_.weights(y, wy_.data(), slope_y_.data(), nullptr);
+        const int64_t y0 =
+            filter_.weights(y, wy_.data(), with_slope ? slope_y_.data() : nullptr, nullptr);
         const int64_t begin = static_cast<int64_t>(std::floor(left)) - (taps / 2 - 1);
         const int64_t end = static_cast<int64_t>(std::floor(right)) - (taps / 2 - 1) + taps;
         fill_row(begin, end, y0, wy_, row_);
@@ -268,19 +312,18 @@ template <class T> class DiscIntegral {
             const int64_t x0 = filter_.weights(
                 x, wx_.data(), with_slope ? slope_x_.data() : nullptr, step_.data());
             const double *samples = row_.data() + (x0 - begin);
-            (sign > 0 ? chord.right : chord.left) = product(wx_, samples);
-            chord.integral += sign * product(step_, samples);
+            (sign > 0 ? chord.right : chord.left) = product(wx_.data(), samples, wx_.size());
+            chord.integral += sign * product(step_.data(), samples, wx_.size());
             if (with_slope) {
-                chord.slope_x += sign * product(slope_x_, samples);
-                chord.slope_y += product(wx_, slope_row_.data() + (x0 - begin));
+                chord.slope_x += sign * product(slope_x_.data(), samples, wx_.size());
+                chord.slope_y += product(wx_.data(), slope_row_.data() + (x0 - begin), wx_.size());
             }
             chord.lost += beyond(step_, x0, samples_.nx);
             chord.lost_at_ends = std::max(chord.lost_at_ends, beyond(wx_, x0, samples_.nx));
         };
         at_end(left, -1);
         at_end(right, 1);
-        for (int64_t i = 0; i < end - taps - begin; ++i)
-            chord.integral += row_[static_cast<size_t>(i)];
+        chord.integral += sum_of(row_.data(), end - taps - begin);
         const double lost_y = beyond(wy_, y0, samples_.ny);
         chord.lost += lost_y * (right - left);
         chord.lost_at_ends += lost_y;
@@ -403,22 +446,33 @@ Estimated encircled_radius(View<const T> image, double x, double y, double fract
     if (!(limit > 0))
         fail(WFPSF_ERROR_SIZE_NOT_REACHED, "centre = (%g, %g): must lie inside the image", x, y);
     DiscIntegral<T> integral(image, x, y, options, false);
+    DiscIntegral<T> rough(image, x, y, {options.bandwidth, std::max(1e-3, options.eps)}, false);
 
     // Newton's iteration on energy(R) = target, bracketed. The first radius is that of a disc as
-    // bright as the centre.
+    // bright as the centre; the first steps need no precision.
     double low = 0, high = limit;
     const double centre = checked_energy(integral.value(x, y));
     double radius = centre > 0 ? std::min(limit, std::sqrt(target / (pi * centre))) : limit;
+    bool near = false;
     for (int i = 0; i < 100; ++i) {
-        const auto sums = integral.within(radius);
+        const auto sums = (near ? integral : rough).within(radius);
         checked_energy(sums.energy);
+        const double newton = sums.density > 0 ? (target - sums.energy) / sums.density : NAN;
+        if (!near &&
+            (std::abs(newton) <= 1e-2 * radius || high - low <= 1e-2 * radius || radius >= limit)) {
+            near = true;
+            low = 0;
+            high = limit;
+            if (std::abs(newton) <= 1e-2 * radius)
+                radius = std::min(limit, radius + newton);
+            continue;
+        }
         if (sums.energy < target && radius >= limit)
             fail(WFPSF_ERROR_SIZE_NOT_REACHED,
                  "fraction = %g: the largest circle around (%g, %g), of radius %g, holds %.6g of "
                  "the total",
                  fraction, x, y, limit, sums.energy / total);
         (sums.energy < target ? low : high) = radius;
-        const double newton = sums.density > 0 ? (target - sums.energy) / sums.density : NAN;
         if (std::abs(newton) <= 1e-13 * radius || high - low <= 1e-13 * radius)
             break;
         double next = radius + newton;
