@@ -66,7 +66,7 @@ TEST(Study, FigureOfHalfLightIsThatOfItsImages) {
     const auto ee50 = [&s](const Ipc &ipc) {
         const Plane<double> image = s.star.image(ipc);
         const Gaussian w = solved(s.star, image, s.band).weight;
-        return s.half_light(image, w.x, w.y);
+        return s.half_light(image, w.x, w.y).value;
     };
     const double from = ee50({});
     for (size_t i = 0; i < table.rows.size(); i += 3) {
