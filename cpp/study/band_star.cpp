@@ -2,6 +2,7 @@
 #include "study/band_star.hpp"
 
 #include "error/error.hpp"
+#include "moments/unweighted.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -10,17 +11,19 @@ namespace wfpsf {
 
 namespace {
 
-// The light of a star that samples on that field hold.
-double light_on_field(const Psf &psf, int64_t oversampling) {
-    const int64_t side = field_side * oversampling;
+// The light of a star that samples on the field hold, and its derivative by a variance of blur:
+// half of the Laplacian's sum, which is the outward difference of the outermost samples.
+std::array<double, 2> light_on_field(const Psf &psf, int64_t oversampling) {
+    const int64_t side = field_side * oversampling, last = side - 1;
     Plane<double> field(side, side);
-    const double centre = static_cast<double>(side - 1) / 2;
+    const double centre = static_cast<double>(last) / 2;
     psf.draw({centre, centre, 1}, oversampling, field.view());
-    double sum = 0;
-    for (int64_t y = 0; y < side; ++y)
-        for (int64_t x = 0; x < side; ++x)
-            sum += field(x, y);
-    return sum;
+    double gained = 0;
+    for (int64_t i = 0; i < side; ++i)
+        gained += field(i, 0) - field(i, 1) + field(i, last) - field(i, last - 1) + field(0, i) -
+                  field(1, i) + field(last, i) - field(last - 1, i);
+    return {pixel_sum(std::as_const(field).view()),
+            gained / 2 * static_cast<double>(oversampling * oversampling)};
 }
 
 } // namespace
@@ -77,7 +80,7 @@ EncircledOptions BandStar::encircled(double asked) const {
 }
 
 Estimated BandStar::half_light(const Plane<double> &of, double x, double y) const {
-    const Estimated radius = encircled_radius(of.view(), x, y, 0.5, light, encircled());
+    const Estimated radius = encircled_radius(of.view(), x, y, 0.5, light[0], encircled());
     const auto oversampling = static_cast<double>(star.oversampling());
     return {radius.value / oversampling, radius.error_estimate / oversampling};
 }
@@ -91,7 +94,7 @@ double BandStar::error(const AdaptiveMoments &m) const {
 HalfLightSlopes::HalfLightSlopes(const BandStar &star)
     : s_(star), precise_(star.encircled(1e-10)),
       radius_(encircled_radius(star.image.view(), star.nominal.weight.x, star.nominal.weight.y, 0.5,
-                               star.light, precise_)),
+                               star.light[0], precise_)),
       disc_(disc_light(star.image.view(), star.nominal.weight.x, star.nominal.weight.y,
                        radius_.value, precise_)) {
     const auto oversampling = static_cast<double>(star.star.oversampling());
@@ -121,6 +124,7 @@ double HalfLightSlopes::along(View<const double> change, const StarShape<HyperDu
 double HalfLightSlopes::along_blur(const StarShape<HyperDual> &shape) const {
     const auto oversampling = static_cast<double>(s_.star.oversampling());
     HeldChange a;
+    a.held = 0.5 * s_.light[1];
     a.disc.energy = oversampling * oversampling * (disc_.slope - disc_.density / radius_.value) / 2;
     return moved(radius_slope(radius_, disc_, a).value, shape);
 }
@@ -133,7 +137,7 @@ double HalfLightSlopes::moved(double gained, const StarShape<HyperDual> &shape) 
 AxisHalfLight::AxisHalfLight(const BandStar &star)
     : s_(star), precise_(star.encircled(1e-10)),
       radius_(encircled_radius(star.image.view(), star.star.centre(), star.star.centre(), 0.5,
-                               star.light, precise_)),
+                               star.light[0], precise_)),
       disc_(disc_light(star.image.view(), star.star.centre(), star.star.centre(), radius_.value,
                        precise_)) {}
 

@@ -6,6 +6,7 @@
 #include "study/ipc_star.hpp"
 #include "study/study.hpp"
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,8 +39,8 @@ struct BandStar {
     double bandwidth, eps;
     Psf psf;
     IpcStar star;
-    double light;        // on the field: all of it, for EE50
-    Plane<double> image; // with the nominal IPC
+    std::array<double, 2> light; // on the field: all of it, for EE50; by the variance of blur
+    Plane<double> image;         // with the nominal IPC
     AdaptiveMoments bare, nominal;
 
     BandStar(StarMaker &maker, const Band &of_band, bool with_struts);
