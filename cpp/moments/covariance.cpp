@@ -44,11 +44,27 @@ std::array<SumMatrix, quantities> curvatures(const Sensitivity &sensitivity, boo
     return result;
 }
 
-Quantities<double> bias_of(const std::array<SumMatrix, quantities> &curvature,
-                           const SumMatrix &noise) {
-    Quantities<double> bias;
-    for (size_t q = 0; q < quantities; ++q)
-        bias[q] = curvature[q].cwiseProduct(noise).sum() / 2;
+// Half of the trace of curvature times noise: along the noise's principal axes there are fewer
+// second derivatives to take than by pairs of sums.
+Quantities<double> bias_of(const Sensitivity &sensitivity, const SumMatrix &noise) {
+    const Eigen::SelfAdjointEigenSolver<SumMatrix> axes(noise);
+    Quantities<double> bias{};
+    for (int m = 0; m < static_cast<int>(change_sums); ++m) {
+        const double variance = axes.eigenvalues()[m];
+        if (!(variance > 0))
+            continue;
+        ImageChange change;
+        for (size_t i = 0; i < change_sums; ++i) {
+            const double part = axes.eigenvectors()(static_cast<int>(i), m);
+            if (i == mean_sum)
+                change.mean = part;
+            else
+                change.sums.sum[sum_orders[i].j][sum_orders[i].k] = part;
+        }
+        const auto along = quantities_of(sensitivity.along(change, change));
+        for (size_t q = 0; q < quantities; ++q)
+            bias[q] += along[q].dab * variance / 2;
+    }
     return bias;
 }
 
@@ -99,7 +115,7 @@ MomentsCovariance covariance(View<const T> image, const AdaptiveMoments &solutio
         if (there.status < 0)
             return bias;
         const Sensitivity at(pixels, there, options, missing, true);
-        return bias_of(curvatures(at, with_mean), matrix_of(at.noise(variance)));
+        return bias_of(at, matrix_of(at.noise(variance)));
     };
     Sensitivity::Slopes bias_slopes{};
     for (size_t i = 0; i < std::size(first_sums); ++i) {
