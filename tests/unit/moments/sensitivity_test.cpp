@@ -152,6 +152,16 @@ struct NoiseRatios {
     int failures = 0;
 };
 
+double deviation_of(const std::vector<double> &v) {
+    double sum = 0, squares = 0;
+    for (const double value : v)
+        sum += value - v[0];
+    const double mean = v[0] + sum / static_cast<double>(v.size());
+    for (const double value : v)
+        squares += (value - mean) * (value - mean);
+    return std::sqrt(squares / static_cast<double>(v.size()));
+}
+
 NoiseRatios noise_ratios(double signal_to_noise, MomentsMethod method, int trials) {
     const Gaussian star = gaussian_of(16.3, 15.8, 2.4, 0.2, 0.1);
     const double flux = signal_to_noise * 2 * std::sqrt(std::numbers::pi * std::sqrt(star.det()));
@@ -186,14 +196,7 @@ NoiseRatios noise_ratios(double signal_to_noise, MomentsMethod method, int trial
     }
     const MomentsCovariance first = predicted(1), second = predicted(2);
     for (size_t i = 0; i < quantities; ++i) {
-        std::vector<double> &v = values[i];
-        double sum = 0, squares = 0;
-        for (const double value : v)
-            sum += value - v[0];
-        const double mean = v[0] + sum / static_cast<double>(v.size());
-        for (const double value : v)
-            squares += (value - mean) * (value - mean);
-        const double deviation = std::sqrt(squares / static_cast<double>(v.size()));
+        const double deviation = deviation_of(values[i]);
         ratios.first[i] = deviation / std::sqrt(first[i][i]);
         ratios.second[i] = deviation / std::sqrt(second[i][i]);
     }
@@ -224,6 +227,43 @@ TEST(Covariance, SecondOrderAgreesWithNoiseDownToTen) {
         }
         // At S/N 10 the second order is needed.
         EXPECT_GT(worst_first, signal_to_noise >= 50 ? 0 : 0.2);
+    }
+}
+
+// Predicted from noisy images, as it must be: in the median still good, though single predictions
+// scatter with the moments themselves.
+TEST(Covariance, SecondOrderFromNoisyImages) {
+    const Gaussian star = gaussian_of(16.3, 15.8, 2.4, 0.2, 0.1);
+    const double variance = 1;
+    const double flux = 10 * 2 * std::sqrt(std::numbers::pi * std::sqrt(star.det()));
+    const Plane<double> clean = gaussian_image(33, 33, star, flux);
+    std::mt19937 random(3);
+    std::normal_distribution<double> normal;
+    std::array<std::vector<double>, background_place> values, predicted;
+    for (int trial = 0; trial < 2000; ++trial) {
+        Plane<double> image = clean;
+        for (int64_t y = 0; y < 33; ++y)
+            for (int64_t x = 0; x < 33; ++x)
+                image(x, y) += normal(random);
+        const AdaptiveMoments m = adaptive_moments(view_of(image), star);
+        if (m.status != WFPSF_OK)
+            continue;
+        const auto found = numbers(m);
+        for (size_t i = 0; i < background_place; ++i)
+            values[i].push_back(found[i]);
+        if (trial >= 100)
+            continue;
+        const MomentsCovariance c =
+            covariance(view_of(image), m, {}, {}, View<const double>{&variance, 33, 33, 0, 0}, 2);
+        for (size_t i = 0; i < background_place; ++i)
+            if (std::isfinite(c[i][i]))
+                predicted[i].push_back(std::sqrt(c[i][i]));
+    }
+    for (size_t i = 0; i < background_place; ++i) {
+        EXPECT_GE(predicted[i].size(), 70u);
+        std::ranges::nth_element(predicted[i], predicted[i].begin() + static_cast<std::ptrdiff_t>(
+                                                                          predicted[i].size() / 2));
+        EXPECT_NEAR(deviation_of(values[i]) / predicted[i][predicted[i].size() / 2], 1, 0.2) << i;
     }
 }
 
