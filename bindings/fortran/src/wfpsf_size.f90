@@ -1,6 +1,6 @@
 ! SPDX-License-Identifier: GPL-3.0-or-later
 submodule(wfpsf) wfpsf_size_procedures
-    use, intrinsic :: iso_c_binding, only: c_int64_t, c_null_ptr, c_ptr
+    use, intrinsic :: iso_c_binding, only: c_int64_t
     use wfpsf_c
     use wfpsf_common, only: report
     implicit none
