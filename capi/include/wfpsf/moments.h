@@ -148,8 +148,8 @@ WFPSF_EXPORT wfpsf_status wfpsf_moments_get(const wfpsf_moments *moments, int32_
  * the noise: standard deviations are good to 5% at a signal-to-noise ratio of 50; at 10 those of
  * second moments and BETA are too small by a fifth. Order 2 has the next terms too: good to 20% at
  * 10. It takes some 10 ms, and is NaN where the expansion fails, as of E and BETA where e is
- * far below its own error. At 7 and below second moments have tails that no expansion describes. All
- * this is of images without noise; of noisy ones at 10 it is true in the median, but a single
+ * far below its own error. At 7 and below second moments have tails that no expansion describes.
+ * All this is of images without noise; of noisy ones at 10 it is true in the median, but a single
  * prediction scatters by a third or more, as the moments do that it is made of.
  *
  * The signal-to-noise ratio is that of the amplitude of the fit, its deviation being that at known
