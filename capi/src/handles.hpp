@@ -8,6 +8,7 @@
 #include "image/image.hpp"
 #include "instrument/instrument.hpp"
 #include "moments/adaptive.hpp"
+#include "moments/covariance.hpp"
 #include "moments/pixel_moments.hpp"
 #include "optics/otf.hpp"
 #include "optics/psf.hpp"
@@ -83,13 +84,7 @@ struct wfpsf_moments {
     std::variant<std::monostate, Fit, Sums> origin = {};
     int64_t nx = 0, ny = 0;
 
-    // CENTROID_X to FLUX, by key: their derivatives along the six sums that they answer to.
-    using Slopes = std::array<std::pair<int32_t, std::array<double, 6>>, 12>;
-    struct Covariance {
-        std::array<std::array<double, 6>, 6> sums;
-        Slopes slopes;
-    };
-    std::optional<Covariance> covariance = {};
+    std::optional<wfpsf::MomentsCovariance> covariance = {};
 };
 
 struct wfpsf_study {

@@ -2,6 +2,7 @@
 #include "funnel.hpp"
 #include "handles.hpp"
 #include "moments/adaptive.hpp"
+#include "moments/covariance.hpp"
 #include "moments/moment_set.hpp"
 #include "moments/pixel_moments.hpp"
 #include "moments/sensitivity.hpp"
@@ -20,30 +21,27 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-using Slopes = wfpsf_moments::Slopes;
+// What derivatives and covariances are of, in the order of Quantities.
+constexpr int32_t quantity_keys[quantities] = {
+    WFPSF_MOMENTS_CENTROID_X,  WFPSF_MOMENTS_CENTROID_Y, WFPSF_MOMENTS_MXX,
+    WFPSF_MOMENTS_MXY,         WFPSF_MOMENTS_MYY,        WFPSF_MOMENTS_SIGMA,
+    WFPSF_MOMENTS_SIGMA_TRACE, WFPSF_MOMENTS_E1,         WFPSF_MOMENTS_E2,
+    WFPSF_MOMENTS_E,           WFPSF_MOMENTS_BETA,       WFPSF_MOMENTS_FLUX,
+    WFPSF_MOMENTS_BACKGROUND};
 
-// The numbers that derivatives and covariances are of.
-template <class N> using Numbers = std::array<std::pair<int32_t, N>, 12>;
-
-template <class N> Numbers<N> numbers_of(const MomentSet<N> &m) {
-    const Shape<N> shape = shape_of(m);
-    return {{{WFPSF_MOMENTS_CENTROID_X, m.x},
-             {WFPSF_MOMENTS_CENTROID_Y, m.y},
-             {WFPSF_MOMENTS_MXX, m.Mxx},
-             {WFPSF_MOMENTS_MXY, m.Mxy},
-             {WFPSF_MOMENTS_MYY, m.Myy},
-             {WFPSF_MOMENTS_SIGMA, shape.sigma},
-             {WFPSF_MOMENTS_SIGMA_TRACE, shape.sigma_trace},
-             {WFPSF_MOMENTS_E1, shape.e1},
-             {WFPSF_MOMENTS_E2, shape.e2},
-             {WFPSF_MOMENTS_E, shape.e},
-             {WFPSF_MOMENTS_BETA, shape.beta},
-             {WFPSF_MOMENTS_FLUX, m.flux}}};
+size_t quantity_of(int32_t key) {
+    for (size_t q = 0; q < quantities; ++q)
+        if (quantity_keys[q] == key)
+            return q;
+    fail(WFPSF_ERROR_UNKNOWN_NAME,
+         "key = %d: must be one of CENTROID_X to FLUX, %d..%d, or BACKGROUND, %d", key,
+         WFPSF_MOMENTS_CENTROID_X, WFPSF_MOMENTS_FLUX, WFPSF_MOMENTS_BACKGROUND);
 }
 
 void add_ellipse(wfpsf_moments &moments, const MomentSet<double> &m) {
-    const Numbers<double> numbers = numbers_of(m);
-    moments.properties.insert(moments.properties.end(), numbers.begin(), numbers.end());
+    const Quantities<double> values = quantities_of(m);
+    for (size_t q = 0; q < quantities; ++q)
+        moments.properties.emplace_back(quantity_keys[q], values[q]);
 }
 
 // The first guess, if the caller gave a part of one: the rest is the image's centre and the size of
@@ -107,31 +105,6 @@ Sensitivity sensitivity_of(const wfpsf_moments::Fit &fit, const Image &image, bo
         image.pixels());
 }
 
-// The derivatives of CENTROID_X to FLUX along the six sums that they answer to.
-template <class BySum> Slopes slopes_by(BySum &&by_sum) {
-    Slopes slopes{};
-    for (size_t i = 0; i < 6; ++i) {
-        const Numbers<HyperDual> numbers = numbers_of<HyperDual>(by_sum(i));
-        for (size_t n = 0; n < numbers.size(); ++n) {
-            slopes[n].first = numbers[n].first;
-            slopes[n].second[i] = numbers[n].second.da;
-        }
-    }
-    return slopes;
-}
-
-const std::array<double, 6> &slope_of(const Slopes &slopes, int32_t key) {
-    for (const auto &[property, slope] : slopes)
-        if (property == key)
-            return slope;
-    fail(WFPSF_ERROR_UNKNOWN_NAME, "key = %d: must be one of CENTROID_X to FLUX, %d..%d", key,
-         WFPSF_MOMENTS_CENTROID_X, WFPSF_MOMENTS_FLUX);
-}
-
-Slopes slopes_of(const Sensitivity &sensitivity) {
-    return slopes_by([&](size_t i) { return sensitivity.by_sum(static_cast<int>(i)); });
-}
-
 // Needs a solution, and a variance from one of its two sources.
 void add_covariance(wfpsf_moments &moments, const wfpsf_image *image, const wfpsf_image *variance,
                     const wfpsf_options *options) {
@@ -140,14 +113,17 @@ void add_covariance(wfpsf_moments &moments, const wfpsf_image *image, const wfps
     if (moments.status < 0 || moments.status == WFPSF_WARNING_NOT_CONVERGED ||
         (!variance && std::isnan(constant)))
         return;
-    const Sensitivity sensitivity = sensitivity_of(fit, image->image, false);
-    wfpsf_moments::Covariance covariance;
-    covariance.sums =
-        variance ? std::visit([&](auto pixels) { return sensitivity.noise(pixels); },
-                              variance->image.pixels())
-                 : sensitivity.noise(View<const double>{&constant, moments.nx, moments.ny, 0, 0});
-    covariance.slopes = slopes_of(sensitivity);
-    moments.covariance = std::move(covariance);
+    const auto order = static_cast<int>(option(options, WFPSF_OPTION_MOMENTS_COVARIANCE_ORDER));
+    const auto of = [&](auto variances) {
+        return std::visit(
+            [&](auto pixels) {
+                return covariance(pixels, fit.solution, fit.options, view_of(fit.missing),
+                                  variances, order);
+            },
+            image->image.pixels());
+    };
+    moments.covariance = variance ? std::visit(of, variance->image.pixels())
+                                  : of(View<const double>{&constant, moments.nx, moments.ny, 0, 0});
 }
 
 wfpsf_status measure(const wfpsf_image *image, const wfpsf_image *mask, const wfpsf_image *variance,
@@ -176,8 +152,8 @@ wfpsf_status measure(const wfpsf_image *image, const wfpsf_image *mask, const wf
     result->status = m.status;
     result->nx = nx;
     result->ny = ny;
-    MomentSet<double> ellipse{m.weight.x,   m.weight.y,   m.weight.Mxx,
-                              m.weight.Mxy, m.weight.Myy, m.flux};
+    MomentSet<double> ellipse{m.weight.x,   m.weight.y, m.weight.Mxx, m.weight.Mxy,
+                              m.weight.Myy, m.flux,     m.background};
     if (fit.options.method == MomentsMethod::round)
         set_matrix(ellipse, std::sqrt(m.weight.det()), m.e1, m.e2);
     add_ellipse(*result, ellipse);
@@ -239,29 +215,16 @@ void require_solution(const wfpsf_moments *moments, const wfpsf_image *image) {
     require_size(image, moments->nx, moments->ny, "image");
 }
 
-Slopes slopes_of(const wfpsf_moments &moments, const Image &image) {
-    if (const auto *fit = std::get_if<wfpsf_moments::Fit>(&moments.origin))
-        return slopes_of(sensitivity_of(*fit, image, false));
-    const auto &origin = std::get<wfpsf_moments::Sums>(moments.origin);
-    const PixelSums values = sums_of(image, origin);
-    return slopes_by([&](size_t k) {
-        std::array<HyperDual, 6> sums;
-        for (size_t i = 0; i < 6; ++i)
-            sums[i] = HyperDual(values[i], i == k ? 1 : 0, 0, 0);
-        return moments_of(origin, sums);
-    });
-}
-
 MomentSet<HyperDual> derivatives(const wfpsf_moments &moments, const Image &image, const Image &a,
                                  const Image *b) {
     if (const auto *fit = std::get_if<wfpsf_moments::Fit>(&moments.origin)) {
         const Sensitivity sensitivity = sensitivity_of(*fit, image, b != nullptr);
-        const auto sums = [&](const Image &change) {
-            return std::visit([&](auto pixels) { return sensitivity.sums_of(pixels); },
+        const auto change_of = [&](const Image &change) {
+            return std::visit([&](auto pixels) { return sensitivity.change_of(pixels); },
                               change.pixels());
         };
-        const WeightedSums along_a = sums(a);
-        return sensitivity.along(along_a, b ? sums(*b) : along_a);
+        const ImageChange along_a = change_of(a);
+        return sensitivity.along(along_a, b ? change_of(*b) : along_a);
     }
     const auto &origin = std::get<wfpsf_moments::Sums>(moments.origin);
     const PixelSums value = sums_of(image, origin), along_a = sums_of(a, origin);
@@ -400,13 +363,7 @@ wfpsf_status wfpsf_moments_covariance(const wfpsf_moments *moments, int32_t key_
         if (!moments->covariance)
             fail(WFPSF_ERROR_ARGUMENT,
                  "moments: have no covariance, for want of a variance or of a solution");
-        const Slopes &slopes = moments->covariance->slopes;
-        const auto &a = slope_of(slopes, key_a), &b = slope_of(slopes, key_b);
-        double sum = 0;
-        for (size_t i = 0; i < 6; ++i)
-            for (size_t k = 0; k < 6; ++k)
-                sum += a[i] * moments->covariance->sums[i][k] * b[k];
-        *value = sum;
+        *value = (*moments->covariance)[quantity_of(key_a)][quantity_of(key_b)];
     });
 }
 
@@ -425,8 +382,10 @@ wfpsf_status wfpsf_moments_differentiate(const wfpsf_moments *moments, const wfp
             derivatives(*moments, image->image, change->image, second ? &second->image : nullptr);
         auto result = std::make_unique<wfpsf_moments>();
         result->status = WFPSF_OK;
-        for (const auto &[key, number] : numbers_of(m))
-            result->properties.emplace_back(key, second ? number.dab : number.da);
+        const Quantities<HyperDual> numbers = quantities_of(m);
+        for (size_t q = 0; q < quantities; ++q)
+            result->properties.emplace_back(quantity_keys[q],
+                                            second ? numbers[q].dab : numbers[q].da);
         if (!std::isfinite(second ? m.Mxx.dab + m.flux.dab : m.Mxx.da + m.flux.da))
             fail(WFPSF_ERROR_NOT_FINITE,
                  "change: its pixels must be finite within reach of the weight");
@@ -442,14 +401,25 @@ wfpsf_status wfpsf_moments_influence(const wfpsf_moments *moments, const wfpsf_i
         require_size(influence, moments->nx, moments->ny, "influence");
         if (influence->image.type() != PixelType::float64)
             fail(WFPSF_ERROR_TYPE, "influence: must be float64");
-        const Slopes slopes = slopes_of(*moments, image->image);
-        const std::array<double, 6> &slope = slope_of(slopes, key);
+        const size_t q = quantity_of(key);
         const View<double> out = std::get<View<double>>(influence->image.pixels());
         if (const auto *fit = std::get_if<wfpsf_moments::Fit>(&moments->origin)) {
-            influence_image(fit->solution.weight, slope, view_of(fit->missing), out);
-        } else {
-            const auto &origin = std::get<wfpsf_moments::Sums>(moments->origin);
-            influence_image(origin.weight, origin.x, origin.y, slope, out);
+            const Sensitivity sensitivity = sensitivity_of(*fit, image->image, false);
+            for (int64_t y = 0; y < out.ny; ++y)
+                for (int64_t x = 0; x < out.nx; ++x)
+                    out(x, y) = 0;
+            sensitivity.add_influence(sensitivity.slopes()[q], out);
+            return;
         }
+        const auto &origin = std::get<wfpsf_moments::Sums>(moments->origin);
+        const PixelSums values = sums_of(image->image, origin);
+        std::array<double, 6> slope{};
+        for (size_t k = 0; k < 6; ++k) {
+            std::array<HyperDual, 6> sums;
+            for (size_t i = 0; i < 6; ++i)
+                sums[i] = HyperDual(values[i], i == k ? 1 : 0, 0, 0);
+            slope[k] = quantities_of(moments_of(origin, sums))[q].da;
+        }
+        influence_image(origin.weight, origin.x, origin.y, slope, out);
     });
 }

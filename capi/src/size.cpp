@@ -5,7 +5,6 @@
 #include "moments/radial.hpp"
 #include "moments/unweighted.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <variant>
@@ -30,6 +29,19 @@ EncircledOptions encircled_options(const wfpsf_options *options) {
             .eps = option(options, WFPSF_OPTION_SIZE_EPS)};
 }
 
+void give(const Estimated &result, double *value, double *error) {
+    *value = result.value;
+    if (error)
+        *error = result.error_estimate;
+}
+
+void require_size_of(const wfpsf_image *image, const wfpsf_image *change, const char *name) {
+    if (change->image.nx() != image->image.nx() || change->image.ny() != image->image.ny())
+        fail(WFPSF_ERROR_SIZE, "%s: has %lld x %lld pixels, the image %lld x %lld", name,
+             static_cast<long long>(change->image.nx()), static_cast<long long>(change->image.ny()),
+             static_cast<long long>(image->image.nx()), static_cast<long long>(image->image.ny()));
+}
+
 void require_fraction(double fraction) {
     require_finite(fraction, "fraction");
     if (!(fraction > 0 && fraction < 1))
@@ -50,11 +62,11 @@ wfpsf_status wfpsf_size_encircled_energy(const wfpsf_image *image, double x, dou
         std::visit(
             [&](auto pixels) {
                 const double total = total_flux(pixels, options);
-                const EncircledEnergy e =
-                    encircled_energy(pixels, x, y, radius, encircled_options(options));
-                *fraction = e.energy / total;
+                const DiscLight light =
+                    disc_light(pixels, x, y, radius, encircled_options(options));
+                *fraction = light.energy / total;
                 if (error)
-                    *error = e.error_estimate / total;
+                    *error = light.energy_error / total;
             },
             std::as_const(image->image).pixels());
     });
@@ -81,9 +93,9 @@ wfpsf_status wfpsf_size_ee_radius(const wfpsf_image *image, double x, double y, 
                 } else if (method == WFPSF_SIZE_PIXEL_INTERPOLATED) {
                     *radius = half_light_radius(pixels, x, y, fraction, total);
                 } else {
-                    const EncircledRadius r =
+                    const Estimated r =
                         encircled_radius(pixels, x, y, fraction, total, encircled_options(options));
-                    *radius = r.radius;
+                    *radius = r.value;
                     estimate = r.error_estimate;
                 }
                 if (error)
@@ -104,10 +116,10 @@ wfpsf_status wfpsf_size_fwhm(const wfpsf_image *image, double x, double y, doubl
     });
 }
 
-// R is where E(R) = fraction total, so E'(R) dR = fraction dtotal - dE(R).
 wfpsf_status wfpsf_size_ee_radius_derivative(const wfpsf_image *image, const wfpsf_image *change,
-                                             double x, double y, double fraction,
-                                             const wfpsf_options *options, double *derivative) {
+                                             const wfpsf_image *second, double x, double y,
+                                             double fraction, const wfpsf_options *options,
+                                             double *derivative, double *error) {
     return guarded([&] {
         require_pointer(image, "image");
         require_pointer(change, "change");
@@ -115,35 +127,40 @@ wfpsf_status wfpsf_size_ee_radius_derivative(const wfpsf_image *image, const wfp
         require_finite(x, "x");
         require_finite(y, "y");
         require_fraction(fraction);
-        if (change->image.nx() != image->image.nx() || change->image.ny() != image->image.ny())
-            fail(WFPSF_ERROR_SIZE, "change: has %lld x %lld pixels, the image %lld x %lld",
-                 static_cast<long long>(change->image.nx()),
-                 static_cast<long long>(change->image.ny()),
-                 static_cast<long long>(image->image.nx()),
-                 static_cast<long long>(image->image.ny()));
+        require_size_of(image, change, "change");
+        if (second)
+            require_size_of(image, second, "second");
         const EncircledOptions encircled = encircled_options(options);
-        const EncircledRadius r = std::visit(
+        const bool stated = !std::isnan(option(options, WFPSF_OPTION_SIZE_TOTAL_FLUX));
+        Estimated radius;
+        const auto light = std::visit(
             [&](auto pixels) {
-                return encircled_radius(pixels, x, y, fraction, total_flux(pixels, options),
-                                        encircled);
+                radius = encircled_radius(pixels, x, y, fraction, total_flux(pixels, options),
+                                          encircled);
+                return disc_light(pixels, x, y, radius.value, encircled);
             },
             std::as_const(image->image).pixels());
-        const bool stated = !std::isnan(option(options, WFPSF_OPTION_SIZE_TOTAL_FLUX));
-        const double excess = std::visit(
-            [&](auto pixels) {
-                const double total = stated ? 0 : pixel_sum(pixels);
-                return encircled_energy(pixels, x, y, r.radius, encircled).energy -
-                       fraction * total;
-            },
-            std::as_const(change->image).pixels());
-        require_finite(excess, "energy of the change");
-        *derivative = -excess / r.density;
+        const auto held = [&](const wfpsf_image *by, const char *name) {
+            return std::visit(
+                [&](auto pixels) {
+                    const HeldChange result{disc_light(pixels, x, y, radius.value, encircled),
+                                            stated ? 0 : fraction * pixel_sum(pixels)};
+                    require_finite(result.held, name);
+                    return result;
+                },
+                std::as_const(by->image).pixels());
+        };
+        const HeldChange a = held(change, "sum of the change");
+        give(second ? radius_curvature(radius, light, a, held(second, "sum of the second change"),
+                                       encircled)
+                    : radius_slope(radius, light, a),
+             derivative, error);
     });
 }
 
 wfpsf_status wfpsf_size_profile(const wfpsf_image *image, double x, double y, int64_t count,
-                                const double *radii, const wfpsf_options *options,
-                                double *profile) {
+                                const double *radii, const wfpsf_options *options, double *profile,
+                                double *errors) {
     return guarded([&] {
         require_pointer(image, "image");
         require_finite(x, "x");
@@ -155,7 +172,7 @@ wfpsf_status wfpsf_size_profile(const wfpsf_image *image, double x, double y, in
             return;
         require_pointer(radii, "radii");
         require_pointer(profile, "profile");
-        std::vector<double> means(static_cast<size_t>(count));
+        std::vector<Estimated> means(static_cast<size_t>(count));
         std::visit(
             [&](auto pixels) {
                 for (size_t i = 0; i < means.size(); ++i) {
@@ -164,19 +181,22 @@ wfpsf_status wfpsf_size_profile(const wfpsf_image *image, double x, double y, in
                 }
             },
             std::as_const(image->image).pixels());
-        std::copy(means.begin(), means.end(), profile);
+        for (size_t i = 0; i < means.size(); ++i)
+            give(means[i], profile + i, errors ? errors + i : nullptr);
     });
 }
 
 wfpsf_status wfpsf_size_profile_fwhm(const wfpsf_image *image, double x, double y,
-                                     const wfpsf_options *options, double *fwhm) {
+                                     const wfpsf_options *options, double *fwhm, double *error) {
     return guarded([&] {
         require_pointer(image, "image");
         require_pointer(fwhm, "fwhm");
         require_finite(x, "x");
         require_finite(y, "y");
-        *fwhm = std::visit(
-            [&](auto pixels) { return profile_fwhm(pixels, x, y, encircled_options(options)); },
-            std::as_const(image->image).pixels());
+        give(
+            std::visit(
+                [&](auto pixels) { return profile_fwhm(pixels, x, y, encircled_options(options)); },
+                std::as_const(image->image).pixels()),
+            fwhm, error);
     });
 }

@@ -54,6 +54,8 @@ wfpsf_status wfpsf_study_create(const wfpsf_instrument *instrument, int32_t sca,
         *out = new wfpsf_study{make_study({i, sca, flag(options, WFPSF_OPTION_STRUTS),
                                            make_settings(i, is_mirrored(i, options), options),
                                            wavefront, manners_of(options)})};
+        // EPS is of pixels. An error there counts twice in a size, four times in an ellipticity.
+        return certify(largest_error((*out)->study) / 4, option(options, WFPSF_OPTION_EPS));
     });
 }
 

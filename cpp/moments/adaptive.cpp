@@ -102,16 +102,24 @@ double edge_fraction(const Gaussian &g, int64_t nx, int64_t ny) {
     return 1 - inside / std::sqrt(2 * std::numbers::pi);
 }
 
-// Why no start was found: pixels that are not numbers, or no light.
-template <class T> void report_no_start(View<const T> image, AdaptiveMoments &result) {
+// Names the first pixel that is seen and no number, if there is one.
+template <class T>
+bool report_not_finite(View<const T> image, View<const float> missing, AdaptiveMoments &result) {
     for (int64_t y = 0; y < image.ny; ++y)
         for (int64_t x = 0; x < image.nx; ++x)
-            if (!std::isfinite(image(x, y))) {
+            if (!std::isfinite(image(x, y)) && (missing.empty() || missing(x, y) == 0)) {
                 report(result, WFPSF_ERROR_NOT_FINITE, "pixel (%lld, %lld) = %g: must be finite",
                        static_cast<long long>(x), static_cast<long long>(y),
                        static_cast<double>(image(x, y)));
-                return;
+                return true;
             }
+    return false;
+}
+
+// Why no start was found: pixels that are not numbers, or no light.
+template <class T> void report_no_start(View<const T> image, AdaptiveMoments &result) {
+    if (report_not_finite(image, {}, result))
+        return;
     report(result, WFPSF_ERROR_MOMENTS_FLUX, "no weight finds positive flux in the image");
 }
 
@@ -131,6 +139,8 @@ template <class T> class Iteration {
             pass();
         set_ellipticity();
         result_.missing_fraction = target_.missing_fraction(result_.weight, longest_reach2);
+        result_.background =
+            target_.background(result_.weight, result_.amplitude(), longest_reach2);
         result_.edge_fraction = edge_fraction(result_.weight, image_.nx, image_.ny);
         if (done_ && result_.edge_fraction > 0.5)
             report(result_, WFPSF_ERROR_MOMENTS_FILLS_IMAGE,
@@ -206,7 +216,7 @@ template <class T> class Iteration {
         result_.weight = here_;
         result_.flux = 2 * plane * amplitude;
         WeightedSums filled = sums;
-        if (target_.method != MomentsMethod::least_squares && !target_.count.empty()) {
+        if (!is_least_squares(target_.method) && !target_.count.empty()) {
             const WeightedSums missing =
                 squared_weight_sums(target_.count, here_, plan_.reach2, plan_.stride);
             for (int j = 0; j <= 4; ++j)
@@ -436,7 +446,7 @@ AdaptiveMoments solve(const FitTarget<T> &target, const std::optional<Gaussian> 
         report(result, WFPSF_WARNING_NEAR_DEGENERATE,
                "curvature = %.3g: the moments are poorly determined below %g", result.curvature,
                degenerate);
-    else if (options.method != MomentsMethod::least_squares &&
+    else if (!is_least_squares(options.method) &&
              result.weight.minor_variance() < narrowest_sampled * narrowest_sampled)
         report(
             result, WFPSF_WARNING_UNDERSAMPLED,
@@ -468,6 +478,12 @@ AdaptiveMoments adaptive_moments(View<const T> image, const std::optional<Gaussi
                static_cast<long long>(image.nx), static_cast<long long>(image.ny),
                image.empty() ? "" : ", all of them missing");
         return result;
+    }
+    // Every pixel tells of the background, beyond the weight's reach too.
+    if (options.method == MomentsMethod::with_background) {
+        AdaptiveMoments result;
+        if (report_not_finite(image, missing, result))
+            return result;
     }
     return with_target(image, missing, options.background, options.method,
                        [&](const auto &target) { return solve(target, guess, options); });

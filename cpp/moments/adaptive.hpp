@@ -24,16 +24,17 @@ struct AdaptiveOptions {
     // An iterate whose minor axis falls below this (pixels) has collapsed on a pixel.
     double sigma_min = 0.25;
     MomentsMethod method = MomentsMethod::adaptive;
-    double background = 0; // taken off every pixel
+    double background = 0; // taken off every pixel; of no effect where one is fitted
     bool restart = true;   // from scale_space_start(), if the guess leads to no solution
 };
 
 struct AdaptiveMoments {
     wfpsf_status status = WFPSF_OK;
-    std::string line; // what went wrong, empty if nothing did
-    Gaussian weight;  // x0 and M: the solution, or the last iterate
-    double flux = 0;  // of the best-fit Gaussian: 2 sum(w I) if no pixel is missing
-    double rho4 = 0;  // sum(w I rho^4)/sum(w I), 2 for a Gaussian; good to about last_step
+    std::string line;      // what went wrong, empty if nothing did
+    Gaussian weight;       // x0 and M: the solution, or the last iterate
+    double flux = 0;       // of the best-fit Gaussian: 2 sum(w I) if no pixel is missing
+    double background = 0; // given, or fitted
+    double rho4 = 0;       // sum(w I rho^4)/sum(w I), 2 for a Gaussian; good to about last_step
     // Of the weighted moments under a round weight; elsewhere those of M.
     double e1 = 0;       // (Mxx - Myy)/(Mxx + Myy), Eq. 14
     double e2 = 0;       // 2 Mxy/(Mxx + Myy)

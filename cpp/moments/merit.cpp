@@ -58,6 +58,28 @@ Merit operator-(const Merit &a, const Merit &b) {
     return result;
 }
 
+Merit operator*(const Merit &f, double factor) {
+    Merit result = f;
+    result.value *= factor;
+    for (int i = 0; i < 5; ++i) {
+        result.gradient[i] *= factor;
+        for (double &h : result.hessian[i])
+            h *= factor;
+    }
+    return result;
+}
+
+Merit square(const Merit &f) {
+    Merit result;
+    result.value = f.value * f.value;
+    for (int i = 0; i < 5; ++i) {
+        result.gradient[i] = 2 * f.value * f.gradient[i];
+        for (int k = 0; k < 5; ++k)
+            result.hessian[i][k] = 2 * (f.value * f.hessian[i][k] + f.gradient[i] * f.gradient[k]);
+    }
+    return result;
+}
+
 Merit log(const Merit &f) {
     Merit result;
     result.value = std::log(f.value);
@@ -71,15 +93,7 @@ Merit log(const Merit &f) {
 }
 
 Merit merit(const WeightedSums &sums, const Merit &norm) {
-    const Merit flux = log(power_sum(sums, 1));
-    Merit half = log(norm);
-    half.value /= 2;
-    for (int i = 0; i < 5; ++i) {
-        half.gradient[i] /= 2;
-        for (double &h : half.hessian[i])
-            h /= 2;
-    }
-    return flux - half;
+    return log(power_sum(sums, 1)) - log(norm) * 0.5;
 }
 
 } // namespace wfpsf

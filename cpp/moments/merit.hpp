@@ -24,6 +24,8 @@ Merit power_sum(const WeightedSums &sums, int n);
 Merit plane_norm(const Gaussian &weight);
 
 Merit operator-(const Merit &a, const Merit &b);
+Merit operator*(const Merit &f, double factor);
+Merit square(const Merit &f);
 Merit log(const Merit &f);
 
 // phi for a given Q. sum of I w and Q must be positive.

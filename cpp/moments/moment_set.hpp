@@ -5,9 +5,12 @@
 
 #include "moments/hyper_dual.hpp"
 
+#include <array>
+#include <cstddef>
+
 namespace wfpsf {
 
-template <class N> struct MomentSet { N x{}, y{}, Mxx{}, Mxy{}, Myy{}, flux{}; };
+template <class N> struct MomentSet { N x{}, y{}, Mxx{}, Mxy{}, Myy{}, flux{}, background{}; };
 
 template <class N> struct Shape { N sigma, sigma_trace, e1, e2, e, beta; };
 
@@ -31,6 +34,16 @@ template <class N> void set_matrix(MomentSet<N> &m, const N &root_det, const N &
     m.Mxx = half_trace * (N(1) + e1);
     m.Mxy = half_trace * e2;
     m.Myy = half_trace * (N(1) - e1);
+}
+
+// All quantities in one row.
+inline constexpr size_t quantities = 13;
+template <class N> using Quantities = std::array<N, quantities>;
+
+template <class N> Quantities<N> quantities_of(const MomentSet<N> &m) {
+    const Shape<N> s = shape_of(m);
+    return {m.x,  m.y,  m.Mxx, m.Mxy,  m.Myy,  s.sigma,     s.sigma_trace,
+            s.e1, s.e2, s.e,   s.beta, m.flux, m.background};
 }
 
 } // namespace wfpsf

@@ -37,7 +37,12 @@ double log_third(double S, double x, double y, double z, double xy, double xz, d
 struct Direction {
     WhitenedStep step;
     WeightJet change;
+    double mean;
 };
+
+double mean_of(const WeightedSums &sums, SumOrder order) {
+    return sums.sum[order.j][order.k];
+}
 
 } // namespace
 
@@ -45,10 +50,12 @@ struct Sensitivity::Solution {
     Gaussian weight;
     MomentsMethod method;
     bool second;
-    WeightJet flux;       // of the image
-    WeightJet counted;    // of w^2 over the pixels that `count` counts
-    double plane, sign;   // Q = plane pi sqrt(det M) + sign times the above
-    Matrix5 inverse = {}; // of -Hessian, over the steps that the method allows
+    WeightJet flux;        // of the image
+    WeightJet counted;     // of w^2 over the pixels that `count` counts
+    WeightJet covered;     // of w over them, if a background is fitted
+    double plane, sign;    // Q = plane pi sqrt(det M) + sign counted - covered^2/seen
+    double mean, per_seen; // of FitTarget, and 1/n; 0 unless a background is fitted
+    Matrix5 inverse = {};  // of -Hessian, over the steps that the method allows
     std::array<WhitenedStep, 5> unit = {};
 
     template <class T>
@@ -59,8 +66,13 @@ struct Sensitivity::Solution {
                       ? WeightedSums{}
                       : squared_weight_sums(target.count, at, full_reach2, 1, second ? 6 : 4),
                   2),
-          plane(method == MomentsMethod::least_squares ? 0 : plane_norm(at).value),
-          sign(method == MomentsMethod::least_squares ? 1 : -1) {
+          covered(target.method == MomentsMethod::with_background
+                      ? weighted_sums(target.count, at, full_reach2, 1, second ? 6 : 4)
+                      : WeightedSums{},
+                  1),
+          plane(is_least_squares(method) ? 0 : plane_norm(at).value),
+          sign(is_least_squares(method) ? 1 : -1), mean(target.mean),
+          per_seen(target.seen > 0 ? 1 / target.seen : 0) {
         for (int i = 0; i < 5; ++i)
             unit[static_cast<size_t>(i)] = step_of(Vector5::Unit(i));
         Matrix5 curvature;
@@ -84,16 +96,26 @@ struct Sensitivity::Solution {
         }
     }
 
-    double norm() const { return plane + sign * counted.value(); }
+    double norm() const {
+        return plane + sign * counted.value() - per_seen * covered.value() * covered.value();
+    }
     double norm(const WhitenedStep &a) const {
-        return plane * half_trace(a) + sign * counted.along(a);
+        return plane * half_trace(a) + sign * counted.along(a) -
+               2 * per_seen * covered.value() * covered.along(a);
     }
     double norm(const WhitenedStep &a, const WhitenedStep &b) const {
-        return plane * half_trace(a) * half_trace(b) + sign * counted.along(a, b);
+        return plane * half_trace(a) * half_trace(b) + sign * counted.along(a, b) -
+               2 * per_seen *
+                   (covered.value() * covered.along(a, b) + covered.along(a) * covered.along(b));
     }
     double norm(const WhitenedStep &a, const WhitenedStep &b, const WhitenedStep &c) const {
         return plane * half_trace(a) * half_trace(b) * half_trace(c) +
-               sign * counted.along(a, b, c);
+               sign * counted.along(a, b, c) -
+               2 * per_seen *
+                   (covered.value() * covered.along(a, b, c) +
+                    covered.along(a) * covered.along(b, c) +
+                    covered.along(b) * covered.along(a, c) +
+                    covered.along(c) * covered.along(a, b));
     }
 
     // The sum of I w along a direction, and along a step and a direction, and so on.
@@ -161,6 +183,12 @@ struct Sensitivity::Solution {
         m.Mxy = l * (s * tv + k * vv);
         m.Myy = l * l * vv;
         m.flux = 2 * std::numbers::pi * s * l * exp((htt + hvv) / 2.0) * S / Q;
+        m.background = mean;
+        if (method == MomentsMethod::with_background) {
+            const HyperDual P(covered.value(), covered.along(y.step), covered.along(z.step),
+                              second ? covered.along(y.step, z.step) + covered.along(mixed) : 0);
+            m.background = HyperDual(mean, y.mean, z.mean, 0) - S / Q * P * per_seen;
+        }
         if (method == MomentsMethod::round)
             set_round(m, y, z, mixed, S / Q);
         return m;
@@ -200,86 +228,107 @@ Sensitivity::~Sensitivity() = default;
 Sensitivity::Sensitivity(Sensitivity &&) noexcept = default;
 Sensitivity &Sensitivity::operator=(Sensitivity &&) noexcept = default;
 
-template <class T> WeightedSums Sensitivity::sums_of(View<const T> change) const {
-    return with_target(change, missing_, 0, MomentsMethod::adaptive, [&](const auto &target) {
-        return weighted_sums(target.image, solution_->weight, full_reach2, 1,
-                             solution_->second ? 4 : 2);
+template <class T> ImageChange Sensitivity::change_of(View<const T> change) const {
+    return with_target(change, missing_, 0, solution_->method, [&](const auto &target) {
+        return ImageChange{weighted_sums(target.image, solution_->weight, full_reach2, 1,
+                                         solution_->second ? 4 : 2),
+                           target.mean};
     });
 }
 
-MomentSet<HyperDual> Sensitivity::along(const WeightedSums &a, const WeightedSums &b) const {
-    const WeightJet first(a, 1), second(b, 1);
-    return solution_->ellipse({solution_->answer(first), first},
-                              {solution_->answer(second), second});
+ImageChange Sensitivity::unit_change(size_t sum) {
+    ImageChange change;
+    if (sum == mean_sum)
+        change.mean = 1;
+    else
+        change.sums.sum[sum_orders[sum].j][sum_orders[sum].k] = 1;
+    return change;
 }
 
-MomentSet<HyperDual> Sensitivity::by_sum(int i) const {
-    WeightedSums sums;
-    switch (i) {
-    case 0:
-        sums.sum[0][0] = 1;
-        break;
-    case 1:
-        sums.sum[1][0] = 1;
-        break;
-    case 2:
-        sums.sum[0][1] = 1;
-        break;
-    case 3:
-        sums.sum[2][0] = 2;
-        break;
-    case 4:
-        sums.sum[1][1] = std::numbers::sqrt2;
-        break;
-    default:
-        sums.sum[0][2] = 2;
+MomentSet<HyperDual> Sensitivity::along(const ImageChange &a, const ImageChange &b) const {
+    const auto direction = [this](const ImageChange &change) {
+        const WeightJet jet(change.sums, 1);
+        return Direction{solution_->answer(jet), jet, change.mean};
+    };
+    return solution_->ellipse(direction(a), direction(b));
+}
+
+Sensitivity::Slopes Sensitivity::slopes() const {
+    Slopes result;
+    for (size_t i = 0; i < std::size(first_sums); ++i) {
+        const ImageChange change = unit_change(first_sums[i]);
+        const Quantities<HyperDual> by = quantities_of(along(change, change));
+        for (size_t q = 0; q < quantities; ++q)
+            result[q][i] = by[q].da;
     }
-    const WeightJet change(sums, 1);
-    const Direction direction{solution_->answer(change), change};
-    return solution_->ellipse(direction, direction);
-}
-
-template <class T>
-std::array<std::array<double, 6>, 6> Sensitivity::noise(View<const T> variance) const {
-    for (int64_t y = 0; y < variance.ny; ++y)
-        for (int64_t x = 0; x < variance.nx; ++x) {
-            const auto value = static_cast<double>(variance(x, y));
-            const bool lost = !missing_.empty() && missing_(x, y) != 0;
-            if (!lost && !(value >= 0 && std::isfinite(value)))
-                fail(std::isfinite(value) ? WFPSF_ERROR_RANGE : WFPSF_ERROR_NOT_FINITE,
-                     "variance (%lld, %lld) = %g: must be finite, 0 or more",
-                     static_cast<long long>(x), static_cast<long long>(y), value);
-        }
-    const WeightedSums sums =
-        with_target(variance, missing_, 0, MomentsMethod::adaptive, [&](const auto &target) {
-            return squared_weight_sums(target.image, solution_->weight, full_reach2);
-        });
-    // The six functions are scale t^j v^k.
-    constexpr double half = 0.5, root = std::numbers::sqrt2 / 2;
-    constexpr int j[6] = {0, 1, 0, 2, 1, 0}, k[6] = {0, 0, 1, 0, 1, 2};
-    constexpr double scale[6] = {1, 1, 1, half, root, half};
-    std::array<std::array<double, 6>, 6> result{};
-    for (size_t a = 0; a < 6; ++a)
-        for (size_t b = 0; b < 6; ++b)
-            result[a][b] = scale[a] * scale[b] * sums.sum[j[a] + j[b]][k[a] + k[b]];
     return result;
 }
 
-void influence_image(const Gaussian &weight, const std::array<double, 6> &coefficients,
-                     View<const float> missing, View<double> out) {
+// With a background to fit the i-th sum answers to a pixel as f_i - mean f_i, f_i = w t^j v^k, and
+// the mean as 1/n.
+template <class T> Sensitivity::SumCovariance Sensitivity::noise(View<const T> variance) const {
+    const auto is_lost = [&](int64_t x, int64_t y) {
+        return !missing_.empty() && missing_(x, y) != 0;
+    };
+    double total = 0;
+    for (int64_t y = 0; y < variance.ny; ++y)
+        for (int64_t x = 0; x < variance.nx; ++x) {
+            const auto value = static_cast<double>(variance(x, y));
+            if (is_lost(x, y))
+                continue;
+            if (!(value >= 0 && std::isfinite(value)))
+                fail(std::isfinite(value) ? WFPSF_ERROR_RANGE : WFPSF_ERROR_NOT_FINITE,
+                     "variance (%lld, %lld) = %g: must be finite, 0 or more",
+                     static_cast<long long>(x), static_cast<long long>(y), value);
+            total += value;
+        }
+    const int order = solution_->second ? 4 : 2;
+    const bool with_mean = solution_->method == MomentsMethod::with_background;
+    WeightedSums squared, linear;
+    with_target(variance, missing_, 0, MomentsMethod::adaptive, [&](const auto &target) {
+        squared = squared_weight_sums(target.image, solution_->weight, full_reach2, 1, 2 * order);
+        if (with_mean)
+            linear = weighted_sums(target.image, solution_->weight, full_reach2, 1, order);
+    });
+    const double per_seen = solution_->per_seen;
+    SumCovariance result{};
+    for (size_t a = 0; a < mean_sum; ++a) {
+        const SumOrder p = sum_orders[a];
+        if (p.j + p.k > order)
+            continue;
+        const double mean_a = per_seen * mean_of(solution_->covered.sums(), p);
+        for (size_t b = 0; b < mean_sum; ++b) {
+            const SumOrder q = sum_orders[b];
+            if (q.j + q.k > order)
+                continue;
+            const double mean_b = per_seen * mean_of(solution_->covered.sums(), q);
+            result[a][b] = squared.sum[p.j + q.j][p.k + q.k] - mean_a * mean_of(linear, q) -
+                           mean_b * mean_of(linear, p) + mean_a * mean_b * total;
+        }
+        result[a][mean_sum] = result[mean_sum][a] =
+            per_seen * (mean_of(linear, p) - mean_a * total);
+    }
+    result[mean_sum][mean_sum] = per_seen * per_seen * total;
+    return result;
+}
+
+void Sensitivity::add_influence(const std::array<double, std::size(first_sums)> &c,
+                                View<double> out) const {
+    const Gaussian &weight = solution_->weight;
+    double constant = c[6];
+    for (size_t i = 0; i < 6; ++i)
+        constant -= c[i] * mean_of(solution_->covered.sums(), sum_orders[first_sums[i]]);
+    constant *= solution_->per_seen;
     const double s = weight.s(), l = weight.root_yy(), k = weight.shear();
     for (int64_t y = 0; y < out.ny; ++y)
         for (int64_t x = 0; x < out.nx; ++x) {
-            if (!missing.empty() && missing(x, y) != 0) {
-                out(x, y) = 0;
+            if (!missing_.empty() && missing_(x, y) != 0)
                 continue;
-            }
             const double dy = static_cast<double>(y) - weight.y, v = dy / l;
             const double t = (static_cast<double>(x) - weight.x - k * dy) / s;
-            const auto &c = coefficients;
-            out(x, y) = std::exp(-(t * t + v * v) / 2) *
-                        (c[0] + c[1] * t + c[2] * v + c[3] * t * t / 2 +
-                         c[4] * t * v / std::numbers::sqrt2 + c[5] * v * v / 2);
+            out(x, y) += constant + std::exp(-(t * t + v * v) / 2) *
+                                        (c[0] + c[1] * t + c[2] * v + c[3] * t * t + c[4] * t * v +
+                                         c[5] * v * v);
         }
 }
 
@@ -287,9 +336,9 @@ template Sensitivity::Sensitivity(View<const float>, const AdaptiveMoments &,
                                   const AdaptiveOptions &, View<const float>, bool);
 template Sensitivity::Sensitivity(View<const double>, const AdaptiveMoments &,
                                   const AdaptiveOptions &, View<const float>, bool);
-template WeightedSums Sensitivity::sums_of(View<const float>) const;
-template WeightedSums Sensitivity::sums_of(View<const double>) const;
-template std::array<std::array<double, 6>, 6> Sensitivity::noise(View<const float>) const;
-template std::array<std::array<double, 6>, 6> Sensitivity::noise(View<const double>) const;
+template ImageChange Sensitivity::change_of(View<const float>) const;
+template ImageChange Sensitivity::change_of(View<const double>) const;
+template Sensitivity::SumCovariance Sensitivity::noise(View<const float>) const;
+template Sensitivity::SumCovariance Sensitivity::noise(View<const double>) const;
 
 } // namespace wfpsf

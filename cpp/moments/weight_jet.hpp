@@ -12,6 +12,7 @@ class WeightJet {
     // Sums of f w^n up to the fourth order give first and second derivatives, the sixth the third.
     WeightJet(const WeightedSums &sums, int n) : sums_(sums), n_(n) {}
 
+    const WeightedSums &sums() const { return sums_; }
     double value() const { return sums_.sum[0][0]; }
     double along(const WhitenedStep &a) const;
     double along(const WhitenedStep &a, const WhitenedStep &b) const;

@@ -59,7 +59,7 @@ template <int lanes, int order, class T, class Stride>
             f[k] = static_cast<double>(pixel[(i + k) * stride]);
         f *= w;
         sum[0] += f;
-#pragma GCC unroll 6
+#pragma GCC unroll 8
         for (int k = 1; k <= order; ++k) {
             f *= t;
             sum[k] += f;
@@ -219,7 +219,8 @@ WeightedSums weighted_sums(View<const T> image, const Gaussian &weight, double r
     }
     return order <= 2   ? sums_on_this_machine<2>(image, weight, reach2)
            : order <= 4 ? sums_on_this_machine<4>(image, weight, reach2)
-                        : sums_on_this_machine<6>(image, weight, reach2);
+           : order <= 6 ? sums_on_this_machine<6>(image, weight, reach2)
+                        : sums_on_this_machine<8>(image, weight, reach2);
 }
 
 template <class T>

@@ -9,7 +9,7 @@ namespace wfpsf {
 
 struct WeightedSums {
     // sum[j][k] = sum of I w t^j v^k over the pixels visited, j + k <= order, (t, v) whitened.
-    double sum[7][7] = {};
+    double sum[9][9] = {};
     int64_t pixels = 0;
     double rim = 0; // mean |I| where the reach, not the image's border, ends a row
 
@@ -17,8 +17,8 @@ struct WeightedSums {
 };
 
 // Sums over the pixels with rho^2 <= reach2 of every stride-th column and row (from 0), times
-// stride^2, up to the order 2, 4 or 6. Sums are in double and not finite if a visited pixel is not.
-// Centred coordinates throughout: nothing is lost at large x, y.
+// stride^2, up to the order 2, 4, 6 or 8. Sums are in double and not finite if a visited pixel is
+// not. Centred coordinates throughout: nothing is lost at large x, y.
 template <class T>
 WeightedSums weighted_sums(View<const T> image, const Gaussian &weight, double reach2,
                            int64_t stride = 1, int order = 4);

@@ -6,6 +6,7 @@
 #include "study/ipc_star.hpp"
 #include "study/study.hpp"
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -35,38 +36,62 @@ class StarMaker {
 struct BandStar {
     const Band &band;
     bool struts;
-    double bandwidth;
+    double bandwidth, eps;
     Psf psf;
     IpcStar star;
-    double light;        // on 32 x 32 native pixels: all of it, for EE50
-    Plane<double> image; // with the nominal IPC
+    std::array<double, 2> light; // on the field: all of it, for EE50; by the variance of blur
+    Plane<double> image;         // with the nominal IPC
     AdaptiveMoments bare, nominal;
 
     BandStar(StarMaker &maker, const Band &of_band, bool with_struts);
 
-    // EE50 of an image, native pixels, about a point of it.
-    double half_light(const Plane<double> &of, double x, double y) const;
-    double half_light_axis(const Plane<double> &of) const {
+    // EE50 of an image, native pixels, about a point of it. Its error is the integral's.
+    Estimated half_light(const Plane<double> &of, double x, double y) const;
+    Estimated half_light_axis(const Plane<double> &of) const {
         return half_light(of, star.centre(), star.centre());
     }
-    EncircledOptions encircled(double eps = 1e-6) const; // meets 1e-8 of a radius
+    EncircledOptions encircled() const; // meets a hundredth of eps, or 1e-8, of a radius
+    EncircledOptions encircled(double eps) const;
     // Relative error of sizes, and half of that of ellipticities, numerical.
     double error(const AdaptiveMoments &m) const;
 };
 
-// Derivatives of EE50 about the centroid, with the nominal IPC: the image changes, and the centroid
-// moves.
+// Derivatives of EE50, (1/EE50) dEE50, with the nominal IPC.
 class HalfLightSlopes {
   public:
     explicit HalfLightSlopes(const BandStar &star);
-    // (1/EE50) dEE50, given how the centroid answers to the change.
-    double along(View<const double> change, const StarShape<HyperDual> &shape) const;
+    // About the centroid: the image changes, perhaps its light on the field, and the centroid
+    // moves, given how it answers to the change.
+    double along(View<const double> change, const StarShape<HyperDual> &shape,
+                 double light = 0) const;
+    // By the variance of blur that is the same along x and y, native pixels^2: the light that it
+    // drives over the circle.
+    double along_blur(const StarShape<HyperDual> &shape) const;
+
+  private:
+    double moved(double gained, const StarShape<HyperDual> &shape) const;
+
+    const BandStar &s_;
+    EncircledOptions precise_;
+    Estimated radius_; // samples
+    DiscLight disc_;
+    double by_x_, by_y_; // of it by the centre, samples
+};
+
+// About the optical axis, which stays: with the second derivative along a change.
+class AxisHalfLight {
+  public:
+    explicit AxisHalfLight(const BandStar &star);
+    struct Slope {
+        double first, second;
+    };
+    Slope along(View<const double> change) const;
 
   private:
     const BandStar &s_;
     EncircledOptions precise_;
-    EncircledRadius radius_; // samples
-    double by_x_, by_y_;     // of it by the centre, samples
+    Estimated radius_; // samples
+    DiscLight disc_;
 };
 
 // A solution, or an Error that names the band.

@@ -56,7 +56,7 @@ Place measured(const BandStar &s, const Ipc &ipc, bool with_half_light) {
     const AdaptiveMoments m = solved(s.star, image, s.band, s.nominal.weight);
     Place place{ipc, s.star.shape(m)};
     if (with_half_light)
-        place.ee50 = s.half_light(image, m.weight.x, m.weight.y);
+        place.ee50 = s.half_light(image, m.weight.x, m.weight.y).value;
     return place;
 }
 
@@ -124,14 +124,13 @@ class StarReport {
     StarReport(const StudySource &source, const BandStar &star, StudyTable &slopes,
                StudyTable &laws)
         : source_(source), s_(star), slopes_(slopes), laws_(laws),
-          exact_(star.star, star.image, star.nominal) {
+          exact_(star.star, star.image, star.nominal), half_light_(star) {
         const char *const names[] = {"alpha", "alpha_prime", "alpha_plus"};
-        const HalfLightSlopes half_light(star);
         for (size_t p = 0; p < ipc_parameters; ++p) {
             const StarShape<HyperDual> shape = exact_.along(star.star.change(p));
             for (size_t q = 0; q < 3; ++q)
                 by_ipc_[q][p] = slope_of(shape, quantities[q].name);
-            by_ipc_[3][p].first = half_light.along(star.star.change(p), shape);
+            by_ipc_[3][p].first = half_light_.along(star.star.change(p), shape);
         }
         const std::vector<Place> iso =
             measured(star, isotropic, is_shown(source.instrument, star.band));
@@ -142,6 +141,11 @@ class StarReport {
             const double fits[] = {fit[0], fit[1], fit_plus[1]};
             for (size_t p = 0; p < ipc_parameters; ++p)
                 add(quantities[q].name, names[p], by_ipc_[q][p], fits[p]);
+        }
+        const AxisHalfLight about_axis(star);
+        for (size_t p = 0; p < ipc_parameters; ++p) {
+            const AxisHalfLight::Slope slope = about_axis.along(star.star.change(p));
+            add("ee50_axis", names[p], {slope.first, slope.second}, nan);
         }
     }
 
@@ -162,9 +166,20 @@ class StarReport {
         } blurs[] = {{"jitter_xx", {per_arcsec2, 0, 0}},
                      {"jitter_xy", {0, per_arcsec2, 0}},
                      {"jitter_yy", {0, 0, per_arcsec2}},
+                     {"jitter_variance", {per_arcsec2, 0, per_arcsec2}},
                      {"diffusion_variance", {1, 0, 1}}};
-        for (const auto &[parameter, variance] : blurs)
-            add_all(parameter, exact_.along_blur(variance));
+        for (const auto &[parameter, variance] : blurs) {
+            const StarShape<HyperDual> shape = exact_.along_blur(variance);
+            add_all(parameter, shape);
+            if (variance.xy == 0 && variance.xx == variance.yy) {
+                const double unit = variance.xx;
+                StarShape<HyperDual> per_pixel2 = shape;
+                per_pixel2.x.da /= unit;
+                per_pixel2.y.da /= unit;
+                add("ee50_centroid", parameter, {unit * half_light_.along_blur(per_pixel2), nan},
+                    nan);
+            }
+        }
     }
 
     // Z4 to the last term that the instrument has, Z11 at least; per wave.
@@ -172,10 +187,15 @@ class StarReport {
         constexpr size_t first = 4, least = 11;
         const size_t last = std::max(least, source_.instrument.zernikes(source_.sca).size());
         size_t j = first;
-        for (const IpcStar &change :
-             zernike_changes(s_.psf, s_.star, source_.instrument.diameter_m() / 2, first, last))
-            add_all(std::to_string(j++).insert(0, 1, 'Z'),
-                    exact_.along(change.image(nominal_ipc).view()));
+        for (const auto &[star, light] :
+             zernike_changes(s_.psf, s_.star, source_.instrument.diameter_m() / 2, first, last)) {
+            const std::string parameter = std::to_string(j++).insert(0, 1, 'Z');
+            const Plane<double> change = star.image(nominal_ipc);
+            const StarShape<HyperDual> shape = exact_.along(change.view());
+            add_all(parameter, shape);
+            add("ee50_centroid", parameter, {half_light_.along(change.view(), shape, light), nan},
+                nan);
+        }
     }
 
     void add_all(const std::string &parameter, const StarShape<HyperDual> &shape) {
@@ -210,6 +230,7 @@ class StarReport {
     const BandStar &s_;
     StudyTable &slopes_, &laws_;
     StarSlopes exact_;
+    HalfLightSlopes half_light_;
     std::array<std::array<Slope, ipc_parameters>, std::size(quantities)> by_ipc_;
 };
 

@@ -4,6 +4,7 @@
 #include "detector/ipc_convolve.hpp"
 #include "error/error.hpp"
 #include "moments/moment_set.hpp"
+#include "moments/unweighted.hpp"
 #include "moments/weighted_sums.hpp"
 
 #include <cmath>
@@ -62,8 +63,8 @@ IpcStar::IpcStar(Plane<double> image, int64_t oversampling)
     }
 }
 
-std::vector<IpcStar> zernike_changes(const Psf &psf, const IpcStar &star, double radius_m,
-                                     size_t first_j, size_t last_j) {
+std::vector<StarChange> zernike_changes(const Psf &psf, const IpcStar &star, double radius_m,
+                                        size_t first_j, size_t last_j) {
     std::vector<Wavefront> by;
     std::vector<double> coefficients(last_j);
     for (size_t j = first_j; j <= last_j; ++j) {
@@ -71,13 +72,17 @@ std::vector<IpcStar> zernike_changes(const Psf &psf, const IpcStar &star, double
         by.emplace_back(coefficients, radius_m);
         coefficients[j - 1] = 0;
     }
-    const double native_side =
-        static_cast<double>(star.side()) / static_cast<double>(star.oversampling());
-    std::vector<IpcStar> changes;
-    for (const Field &field : psf.changes(by, native_side / 2)) {
-        Plane<double> image(star.side(), star.side());
-        field.draw({star.centre(), star.centre(), 1}, star.oversampling(), 0, 0, image.view());
-        changes.emplace_back(std::move(image), star.oversampling());
+    const int64_t oversampling = star.oversampling();
+    std::vector<StarChange> changes;
+    for (const Field &field : psf.changes(by, field_side / 2.0)) {
+        const auto drawn = [&](int64_t side) {
+            Plane<double> image(side, side);
+            const double centre = static_cast<double>(side - 1) / 2;
+            field.draw({centre, centre, 1}, oversampling, 0, 0, image.view());
+            return image;
+        };
+        const Plane<double> wide = drawn(field_side * oversampling);
+        changes.push_back({IpcStar(drawn(star.side()), oversampling), pixel_sum(wide.view())});
     }
     return changes;
 }
@@ -111,12 +116,12 @@ StarSlopes::StarSlopes(const IpcStar &star, const Plane<double> &image,
       sums_(weighted_sums(image.view(), solution.weight, full_reach2)),
       sensitivity_(image.view(), solution, study_moments, {}, true) {}
 
-StarShape<HyperDual> StarSlopes::shape(const WeightedSums &sums) const {
-    return native(sensitivity_.along(sums, sums), oversampling_);
+StarShape<HyperDual> StarSlopes::shape(const ImageChange &change) const {
+    return native(sensitivity_.along(change, change), oversampling_);
 }
 
 StarShape<HyperDual> StarSlopes::along(View<const double> change) const {
-    return shape(sensitivity_.sums_of(change));
+    return shape(sensitivity_.change_of(change));
 }
 
 // The change is half of C : grad grad I. In whitened coordinates C becomes L^-1 C L^-T, and each
@@ -140,7 +145,7 @@ StarShape<HyperDual> StarSlopes::along_blur(const Covariance &variance) const {
                               b * at(a + 1, b - 1) + at(a + 1, b + 1);
             sums.sum[a][b] = (ctt * tt + 2 * ctv * tv + cvv * vv) / 2;
         }
-    return shape(sums);
+    return shape({sums});
 }
 
 } // namespace wfpsf

@@ -56,10 +56,19 @@ class IpcStar {
     std::array<Plane<double>, ipc_parameters> changes_;
 };
 
-// How a star's image without IPC answers to Noll's Zernike terms first_j, first_j + 1, ..., per
-// wave at the wavelength of the PSF's settings; unit rms over a circle of that radius.
-std::vector<IpcStar> zernike_changes(const Psf &psf, const IpcStar &star, double radius_m,
-                                     size_t first_j, size_t last_j);
+// The paper's field, native pixels: what its light is, all of it, is the total of EE50.
+inline constexpr int64_t field_side = 32;
+
+// How a star's image without IPC answers to a parameter, and the light on the field.
+struct StarChange {
+    IpcStar star;
+    double light;
+};
+
+// To Noll's Zernike terms first_j, first_j + 1, ..., per wave at the wavelength of the PSF's
+// settings; unit rms over a circle of that radius.
+std::vector<StarChange> zernike_changes(const Psf &psf, const IpcStar &star, double radius_m,
+                                        size_t first_j, size_t last_j);
 
 inline constexpr AdaptiveOptions study_moments{.tolerance = 1e-12};
 
@@ -75,7 +84,7 @@ class StarSlopes {
     StarShape<HyperDual> along_blur(const Covariance &variance) const;
 
   private:
-    StarShape<HyperDual> shape(const WeightedSums &sums) const;
+    StarShape<HyperDual> shape(const ImageChange &change) const;
 
     double oversampling_;
     Gaussian weight_;

@@ -4,6 +4,7 @@
 #include "image/new_file.hpp"
 #include "study/tables.hpp"
 
+#include <algorithm>
 #include <span>
 
 #include <wfpsf/study.h>
@@ -46,6 +47,16 @@ Study make_study(const StudySource &source) {
     study[WFPSF_STUDY_CONVERGENCE] = convergence_table(source, stars);
     progress.report(1);
     return study;
+}
+
+double largest_error(const Study &study) {
+    double largest = 0;
+    for (const auto &row : study.at(WFPSF_STUDY_SIZES).rows) { // ..., unit, paper, value, error
+        const double error = std::get<double>(row[7]);
+        const bool is_size = std::get<std::string>(row[4]) == "mas";
+        largest = std::max(largest, is_size ? error / std::get<double>(row[6]) : error);
+    }
+    return largest;
 }
 
 void write_csv(const Study &study, const std::string &folder) {

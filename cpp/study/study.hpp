@@ -26,6 +26,9 @@ struct StudySource {
 using Study = std::map<int32_t, StudyTable>;
 Study make_study(const StudySource &source);
 
+// The largest error estimate of the table of sizes: relative, or of an ellipticity.
+double largest_error(const Study &study);
+
 // The name of a table's file, without its ending; empty if there is no such table.
 std::string study_file(int32_t table);
 

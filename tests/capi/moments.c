@@ -420,6 +420,46 @@ static void test_masked(void) {
         wfpsf_image_destroy(all[i]);
 }
 
+/* A background that is fitted, its covariance, and what the second order adds to it. */
+static void test_fitted_background(void) {
+    double data[side * side];
+    fill_gaussian(data, side, side, 20.3, 18.9, 4, 1, 3);
+    for (int i = 0; i < side * side; ++i)
+        data[i] += 7;
+    wfpsf_image *image = wrap(data, side, side);
+    wfpsf_options *options = NULL;
+    wfpsf_moments *m = NULL, *by = NULL;
+    CHECK_OK(wfpsf_options_create(&options));
+    CHECK_OK(wfpsf_options_set_integer(options, WFPSF_OPTION_MOMENTS_METHOD, 3));
+    CHECK_OK(wfpsf_options_set_real(options, WFPSF_OPTION_MOMENTS_VARIANCE, 1e-3));
+    double first = 0, second = 0, background = 0;
+    CHECK_OK(wfpsf_moments_measure(image, options, &m));
+    CHECK_NEAR(number(m, WFPSF_MOMENTS_MXX), 4, 1e-7);
+    CHECK_NEAR(number(m, WFPSF_MOMENTS_BACKGROUND), 7, 1e-8);
+    CHECK_OK(wfpsf_moments_covariance(m, WFPSF_MOMENTS_MXX, WFPSF_MOMENTS_MXX, &first));
+    CHECK_OK(
+        wfpsf_moments_covariance(m, WFPSF_MOMENTS_BACKGROUND, WFPSF_MOMENTS_FLUX, &background));
+    CHECK(background < 0);
+    /* along the image itself everything that scales does */
+    CHECK_OK(wfpsf_moments_differentiate(m, image, image, NULL, &by));
+    CHECK_NEAR(number(by, WFPSF_MOMENTS_BACKGROUND), 7, 1e-7);
+    CHECK_NEAR(number(by, WFPSF_MOMENTS_MXX), 0, 1e-7);
+    wfpsf_moments_destroy(by);
+    wfpsf_moments_destroy(m);
+    CHECK_OK(wfpsf_options_set_integer(options, WFPSF_OPTION_MOMENTS_COVARIANCE_ORDER, 2));
+    CHECK_OK(wfpsf_moments_measure(image, options, &m));
+    CHECK_OK(wfpsf_moments_covariance(m, WFPSF_MOMENTS_MXX, WFPSF_MOMENTS_MXX, &second));
+    CHECK(second > first && second < 1.02 * first);
+    wfpsf_moments_destroy(m);
+    CHECK_STATUS(WFPSF_ERROR_RANGE,
+                 wfpsf_options_set_integer(options, WFPSF_OPTION_MOMENTS_COVARIANCE_ORDER, 3));
+    data[3] = NAN; /* far beyond the weight */
+    CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "(3, 0)", wfpsf_moments_measure(image, options, &m));
+    wfpsf_moments_destroy(m);
+    wfpsf_options_destroy(options);
+    wfpsf_image_destroy(image);
+}
+
 /* A Gaussian of matrix 4, 1, 3 under a weight W has the moments (M^-1 + W^-1)^-1. */
 static void test_fixed_weight(void) {
     double data[side * side], sums[15], weight[3] = {4, 1, 3};
@@ -487,6 +527,7 @@ int main(void) {
     test_derivatives(weighted);
     test_derivatives_refused();
     test_masked();
+    test_fitted_background();
     test_fixed_weight();
     test_gaussians();
     test_unweighted();

@@ -138,49 +138,54 @@ static void test_bad_pixels(void) {
 /* exp(-r^2/(2 sigma^2)) on circles, its FWHM, and the radius' derivative as the star grows. */
 static void test_profile(const wfpsf_image *image) {
     const double radii[3] = {0, 4, 11};
-    double profile[3] = {0}, value = 0;
-    CHECK_OK(wfpsf_size_profile(image, star_x, star_y, 3, radii, NULL, profile));
-    for (int i = 0; i < 3; ++i)
-        CHECK_NEAR(profile[i], exp(-radii[i] * radii[i] / (2 * sigma * sigma)), 1e-11);
-    CHECK_OK(wfpsf_size_profile(image, star_x, star_y, 0, NULL, NULL, NULL));
-    CHECK_OK(wfpsf_size_profile_fwhm(image, star_x, star_y, NULL, &value));
+    double profile[3] = {0}, errors[3] = {0}, value = 0, error = 0;
+    CHECK_OK(wfpsf_size_profile(image, star_x, star_y, 3, radii, NULL, profile, errors));
+    for (int i = 0; i < 3; ++i) {
+        const double truth = exp(-radii[i] * radii[i] / (2 * sigma * sigma));
+        CHECK_NEAR(profile[i], truth, 1e-11);
+        CHECK(fabs(profile[i] - truth) <= errors[i] && errors[i] < 1e-10);
+    }
+    CHECK_OK(wfpsf_size_profile(image, star_x, star_y, 0, NULL, NULL, NULL, NULL));
+    CHECK_OK(wfpsf_size_profile_fwhm(image, star_x, star_y, NULL, &value, &error));
     CHECK_NEAR(value, 2 * sigma * sqrt(2 * log(2)), 1e-9);
+    CHECK(fabs(value - 2 * sigma * sqrt(2 * log(2))) <= error && error < 1e-8);
 
     const double bad[1] = {-1}, far[1] = {60}, nan_radius[1] = {NAN};
     CHECK_FAILS(WFPSF_ERROR_RANGE, "radius = -1",
-                wfpsf_size_profile(image, star_x, star_y, 1, bad, NULL, profile));
+                wfpsf_size_profile(image, star_x, star_y, 1, bad, NULL, profile, NULL));
     CHECK_FAILS(WFPSF_ERROR_SIZE_NOT_REACHED, "radius = 60",
-                wfpsf_size_profile(image, star_x, star_y, 1, far, NULL, profile));
+                wfpsf_size_profile(image, star_x, star_y, 1, far, NULL, profile, NULL));
     CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "radius = nan",
-                wfpsf_size_profile(image, star_x, star_y, 1, nan_radius, NULL, profile));
+                wfpsf_size_profile(image, star_x, star_y, 1, nan_radius, NULL, profile, NULL));
     CHECK_FAILS(WFPSF_ERROR_SIZE, "count = -1",
-                wfpsf_size_profile(image, star_x, star_y, -1, radii, NULL, profile));
+                wfpsf_size_profile(image, star_x, star_y, -1, radii, NULL, profile, NULL));
     CHECK_FAILS(WFPSF_ERROR_NULL, "image",
-                wfpsf_size_profile(NULL, star_x, star_y, 1, radii, NULL, profile));
+                wfpsf_size_profile(NULL, star_x, star_y, 1, radii, NULL, profile, NULL));
     CHECK_FAILS(WFPSF_ERROR_NULL, "radii",
-                wfpsf_size_profile(image, star_x, star_y, 1, NULL, NULL, profile));
+                wfpsf_size_profile(image, star_x, star_y, 1, NULL, NULL, profile, NULL));
     CHECK_FAILS(WFPSF_ERROR_NULL, "profile",
-                wfpsf_size_profile(image, star_x, star_y, 1, radii, NULL, NULL));
+                wfpsf_size_profile(image, star_x, star_y, 1, radii, NULL, NULL, NULL));
     CHECK_FAILS(WFPSF_ERROR_NULL, "fwhm",
-                wfpsf_size_profile_fwhm(image, star_x, star_y, NULL, NULL));
+                wfpsf_size_profile_fwhm(image, star_x, star_y, NULL, NULL, NULL));
     CHECK_FAILS(WFPSF_ERROR_NULL, "image",
-                wfpsf_size_profile_fwhm(NULL, star_x, star_y, NULL, &value));
+                wfpsf_size_profile_fwhm(NULL, star_x, star_y, NULL, &value, NULL));
     CHECK_FAILS(WFPSF_ERROR_SIZE_NOT_REACHED, "-9",
-                wfpsf_size_profile_fwhm(image, -9, star_y, NULL, &value));
+                wfpsf_size_profile_fwhm(image, -9, star_y, NULL, &value, NULL));
     double flat[121];
     fill(flat, 121, 1);
     wfpsf_image *even = wrap(flat, 11, 11);
-    CHECK_STATUS(WFPSF_ERROR_SIZE_NOT_REACHED, wfpsf_size_profile_fwhm(even, 5, 5, NULL, &value));
+    CHECK_STATUS(WFPSF_ERROR_SIZE_NOT_REACHED,
+                 wfpsf_size_profile_fwhm(even, 5, 5, NULL, &value, NULL));
     fill(flat, 121, -1);
-    CHECK_STATUS(WFPSF_ERROR_MOMENTS_FLUX, wfpsf_size_profile_fwhm(even, 5, 5, NULL, &value));
+    CHECK_STATUS(WFPSF_ERROR_MOMENTS_FLUX, wfpsf_size_profile_fwhm(even, 5, 5, NULL, &value, NULL));
     fill(flat, 121, NAN);
-    CHECK_STATUS(WFPSF_ERROR_NOT_FINITE, wfpsf_size_profile_fwhm(even, 5, 5, NULL, &value));
+    CHECK_STATUS(WFPSF_ERROR_NOT_FINITE, wfpsf_size_profile_fwhm(even, 5, 5, NULL, &value, NULL));
     wfpsf_image_destroy(even);
 }
 
 static void test_derivative(const wfpsf_image *image) {
     static double change_data[nx * ny];
-    double value = 7;
+    double value = 7, error = 7;
     /* d/dsigma of a Gaussian of constant flux 2 pi 25: (r^2/sigma^3 - 2/sigma) I */
     fill_gaussian(change_data, nx, ny, star_x, star_y, sigma * sigma, 0, sigma * sigma);
     for (int y = 0; y < ny; ++y)
@@ -189,30 +194,49 @@ static void test_derivative(const wfpsf_image *image) {
             change_data[y * nx + x] *= r2 / (sigma * sigma * sigma) - 2 / sigma;
         }
     wfpsf_image *change = wrap(change_data, nx, ny), *small = wrap(change_data, 3, 3);
-    CHECK_OK(wfpsf_size_ee_radius_derivative(image, change, star_x, star_y, 0.5, NULL, &value));
+    CHECK_OK(wfpsf_size_ee_radius_derivative(image, change, NULL, star_x, star_y, 0.5, NULL, &value,
+                                             &error));
     CHECK_NEAR(value, sqrt(2 * log(2)), 1e-9);
+    CHECK(fabs(value - sqrt(2 * log(2))) <= error && error < 1e-8);
     /* more of the same light changes nothing, unless the total is said to stay */
-    CHECK_OK(wfpsf_size_ee_radius_derivative(image, image, star_x, star_y, 0.5, NULL, &value));
+    CHECK_OK(wfpsf_size_ee_radius_derivative(image, image, NULL, star_x, star_y, 0.5, NULL, &value,
+                                             NULL));
     CHECK_NEAR(value, 0, 1e-10);
     CHECK_OK(wfpsf_options_set_real(options, WFPSF_OPTION_SIZE_TOTAL_FLUX, 2 * pi * sigma * sigma));
-    CHECK_OK(wfpsf_size_ee_radius_derivative(image, image, star_x, star_y, 0.5, options, &value));
+    CHECK_OK(wfpsf_size_ee_radius_derivative(image, image, NULL, star_x, star_y, 0.5, options,
+                                             &value, NULL));
     CHECK_NEAR(value, -sigma / sqrt(2 * log(2)), 1e-9);
+    /* (1 + s) (1 - exp(-R^2/(2 sigma^2))) = 1/2 by s, twice */
+    const double half = sqrt(2 * log(2));
+    CHECK_OK(wfpsf_size_ee_radius_derivative(image, image, image, star_x, star_y, 0.5, options,
+                                             &value, &error));
+    CHECK_NEAR(value, sigma * (3 / half - 1 / (half * half * half)), 1e-8);
+    CHECK(error > 0 && error < 1e-7);
     CHECK_OK(wfpsf_options_reset(options, WFPSF_OPTION_SIZE_TOTAL_FLUX));
 
     value = 7;
     CHECK_FAILS(WFPSF_ERROR_SIZE, "change: has 3 x 3",
-                wfpsf_size_ee_radius_derivative(image, small, star_x, star_y, 0.5, NULL, &value));
+                wfpsf_size_ee_radius_derivative(image, small, NULL, star_x, star_y, 0.5, NULL,
+                                                &value, NULL));
+    CHECK_FAILS(WFPSF_ERROR_SIZE, "second: has 3 x 3",
+                wfpsf_size_ee_radius_derivative(image, change, small, star_x, star_y, 0.5, NULL,
+                                                &value, NULL));
     CHECK_FAILS(WFPSF_ERROR_RANGE, "fraction = 2",
-                wfpsf_size_ee_radius_derivative(image, change, star_x, star_y, 2, NULL, &value));
+                wfpsf_size_ee_radius_derivative(image, change, NULL, star_x, star_y, 2, NULL,
+                                                &value, NULL));
     CHECK_FAILS(WFPSF_ERROR_NULL, "image",
-                wfpsf_size_ee_radius_derivative(NULL, change, star_x, star_y, 0.5, NULL, &value));
+                wfpsf_size_ee_radius_derivative(NULL, change, NULL, star_x, star_y, 0.5, NULL,
+                                                &value, NULL));
     CHECK_FAILS(WFPSF_ERROR_NULL, "change",
-                wfpsf_size_ee_radius_derivative(image, NULL, star_x, star_y, 0.5, NULL, &value));
+                wfpsf_size_ee_radius_derivative(image, NULL, NULL, star_x, star_y, 0.5, NULL,
+                                                &value, NULL));
     CHECK_FAILS(WFPSF_ERROR_NULL, "derivative",
-                wfpsf_size_ee_radius_derivative(image, change, star_x, star_y, 0.5, NULL, NULL));
+                wfpsf_size_ee_radius_derivative(image, change, NULL, star_x, star_y, 0.5, NULL,
+                                                NULL, NULL));
     change_data[38 * nx + 40] = NAN;
     CHECK_FAILS(WFPSF_ERROR_NOT_FINITE, "nan",
-                wfpsf_size_ee_radius_derivative(image, change, star_x, star_y, 0.5, NULL, &value));
+                wfpsf_size_ee_radius_derivative(image, change, NULL, star_x, star_y, 0.5, NULL,
+                                                &value, NULL));
     CHECK(value == 7);
     wfpsf_image_destroy(change);
     wfpsf_image_destroy(small);

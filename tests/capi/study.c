@@ -110,6 +110,17 @@ static void test_cancelled(const wfpsf_instrument *instrument, wfpsf_options *op
     CHECK(out == NULL && part > 0.75 && part < 1);
 }
 
+/* EPS 1e-12 is beyond what figures are sure of: the study comes with a warning, and whole. */
+static void test_not_certified(const wfpsf_instrument *instrument, wfpsf_options *options) {
+    wfpsf_study *study = NULL;
+    CHECK_OK(wfpsf_options_set_progress(options, NULL, NULL));
+    CHECK_OK(wfpsf_options_set_real(options, WFPSF_OPTION_EPS, 1e-12));
+    CHECK_FAILS(WFPSF_WARNING_NOT_CERTIFIED, "EPS = 1e-12",
+                wfpsf_study_create(instrument, 7, options, &study));
+    CHECK(number(study, WFPSF_STUDY_SIZES, 0, "error_estimate") > 0);
+    wfpsf_study_destroy(study);
+}
+
 int main(void) {
     wfpsf_instrument *instrument = NULL;
     wfpsf_options *options = NULL;
@@ -122,6 +133,7 @@ int main(void) {
     test_csv(study);
     test_refused(study, instrument);
     test_cancelled(instrument, options);
+    test_not_certified(instrument, options);
     wfpsf_study_destroy(study);
     wfpsf_options_destroy(options);
     wfpsf_instrument_destroy(instrument);

@@ -174,11 +174,14 @@ class Sizes(unittest.TestCase):
         self.assertAlmostEqual(wfpsf.ee_radius(image, 39, 40).radius, half, 6)
         self.assertAlmostEqual(wfpsf.encircled_energy(image, 39, 40, half).fraction, 0.5, 6)
         self.assertTrue(np.isnan(wfpsf.ee_radius(image, 39, 40, method="pixel_sum").error))
-        self.assertAlmostEqual(wfpsf.profile_fwhm(image, 39, 40), 2 * half, 5)
+        self.assertAlmostEqual(wfpsf.profile_fwhm(image, 39, 40).fwhm, 2 * half, 5)
         self.assertAlmostEqual(wfpsf.fwhm(image, 39, 40), 2 * half, 0)
-        profile = wfpsf.radial_profile(image, 39, 40, [0, half])
+        profile, errors = wfpsf.radial_profile(image, 39, 40, [0, half])
         self.assertAlmostEqual(profile[1] / profile[0], 0.5, 6)
-        self.assertAlmostEqual(wfpsf.ee_radius_derivative(image, image, 39, 40), 0, 6)
+        self.assertLess(max(errors), 1e-6)
+        self.assertAlmostEqual(wfpsf.ee_radius_derivative(image, image, 39, 40).derivative, 0, 6)
+        curved = wfpsf.ee_radius_derivative(image, image, 39, 40, second=image)
+        self.assertAlmostEqual(curved.derivative, 0, 6)
         self.assertEqual(status_of(lambda: wfpsf.ee_radius(image, 39, 40, 0.9, size_total_flux=2)),
                          "ERROR_SIZE_NOT_REACHED")
 

@@ -719,35 +719,41 @@ module wfpsf
             character(len=*), intent(inout), optional :: errmsg
         end subroutine image_ee_radius
 
-        ! The derivative of that radius, of the band-limited image, by a change of the image.
+        ! The derivative of that radius, of the band-limited image, by a change of the image; the
+        ! mixed one by change and second.
         module subroutine image_ee_radius_derivative(self, change, x, y, fraction, derivative, &
-            options, stat, errmsg)
+            error, second, options, stat, errmsg)
             class(wfpsf_image), intent(in) :: self
             type(wfpsf_image), intent(in) :: change
             real(real64), intent(in) :: x, y, fraction
             real(real64), intent(inout) :: derivative
+            real(real64), intent(inout), optional :: error
+            type(wfpsf_image), intent(in), optional :: second
             type(wfpsf_options), intent(in), optional :: options
             integer, intent(out), optional :: stat
             character(len=*), intent(inout), optional :: errmsg
         end subroutine image_ee_radius_derivative
 
-        ! Means of the band-limited image on circles about (x, y); profile is as long as radii.
-        ! Options: size_bandwidth, size_eps.
-        module subroutine image_radial_profile(self, x, y, radii, profile, options, stat, errmsg)
+        ! Means of the band-limited image on circles about (x, y), and estimates of their errors;
+        ! both are as long as radii. Options: size_bandwidth, size_eps.
+        module subroutine image_radial_profile(self, x, y, radii, profile, errors, options, stat, &
+            errmsg)
             class(wfpsf_image), intent(in) :: self
             real(real64), intent(in) :: x, y
             real(real64), intent(in), contiguous :: radii(:)
             real(real64), intent(inout), contiguous :: profile(:)
+            real(real64), intent(inout), contiguous, optional :: errors(:)
             type(wfpsf_options), intent(in), optional :: options
             integer, intent(out), optional :: stat
             character(len=*), intent(inout), optional :: errmsg
         end subroutine image_radial_profile
 
         ! Full width at half maximum of that profile.
-        module subroutine image_profile_fwhm(self, x, y, fwhm, options, stat, errmsg)
+        module subroutine image_profile_fwhm(self, x, y, fwhm, error, options, stat, errmsg)
             class(wfpsf_image), intent(in) :: self
             real(real64), intent(in) :: x, y
             real(real64), intent(inout) :: fwhm
+            real(real64), intent(inout), optional :: error
             type(wfpsf_options), intent(in), optional :: options
             integer, intent(out), optional :: stat
             character(len=*), intent(inout), optional :: errmsg

@@ -80,6 +80,7 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_option_moments_background = 360
     integer(c_int32_t), parameter :: wfpsf_option_moments_variance = 370
     integer(c_int32_t), parameter :: wfpsf_option_moments_restart = 380
+    integer(c_int32_t), parameter :: wfpsf_option_moments_covariance_order = 390
     integer(c_int32_t), parameter :: wfpsf_option_size_total_flux = 400
     integer(c_int32_t), parameter :: wfpsf_option_size_bandwidth = 410
     integer(c_int32_t), parameter :: wfpsf_option_size_eps = 420
@@ -225,6 +226,7 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_moments_amplitude = 200
     integer(c_int32_t), parameter :: wfpsf_moments_last_step = 210
     integer(c_int32_t), parameter :: wfpsf_moments_pixels = 220
+    integer(c_int32_t), parameter :: wfpsf_moments_background = 230
 
     ! size.h
     integer(c_int32_t), parameter :: wfpsf_size_bandlimited = 1
@@ -1661,21 +1663,23 @@ module wfpsf_c
             integer(c_int32_t) :: outcome
         end function wfpsf_size_fwhm
 
-        function wfpsf_size_ee_radius_derivative(image, change, x, y, fraction, options, &
-            derivative) bind(c, name="wfpsf_size_ee_radius_derivative") result(outcome)
+        function wfpsf_size_ee_radius_derivative(image, change, second, x, y, fraction, options, &
+            derivative, error) bind(c, name="wfpsf_size_ee_radius_derivative") result(outcome)
             import :: c_double, c_int32_t, c_ptr
             implicit none
             type(c_ptr), value :: image
             type(c_ptr), value :: change
+            type(c_ptr), value :: second
             real(c_double), value :: x
             real(c_double), value :: y
             real(c_double), value :: fraction
             type(c_ptr), value :: options
             real(c_double), intent(inout), optional :: derivative
+            real(c_double), intent(inout), optional :: error
             integer(c_int32_t) :: outcome
         end function wfpsf_size_ee_radius_derivative
 
-        function wfpsf_size_profile(image, x, y, count, radii, options, profile) &
+        function wfpsf_size_profile(image, x, y, count, radii, options, profile, errors) &
             bind(c, name="wfpsf_size_profile") result(outcome)
             import :: c_double, c_int32_t, c_int64_t, c_ptr
             implicit none
@@ -1686,10 +1690,11 @@ module wfpsf_c
             real(c_double), intent(in), optional :: radii(*)
             type(c_ptr), value :: options
             real(c_double), intent(inout), optional :: profile(*)
+            real(c_double), intent(inout), optional :: errors(*)
             integer(c_int32_t) :: outcome
         end function wfpsf_size_profile
 
-        function wfpsf_size_profile_fwhm(image, x, y, options, fwhm) &
+        function wfpsf_size_profile_fwhm(image, x, y, options, fwhm, error) &
             bind(c, name="wfpsf_size_profile_fwhm") result(outcome)
             import :: c_double, c_int32_t, c_ptr
             implicit none
@@ -1698,6 +1703,7 @@ module wfpsf_c
             real(c_double), value :: y
             type(c_ptr), value :: options
             real(c_double), intent(inout), optional :: fwhm
+            real(c_double), intent(inout), optional :: error
             integer(c_int32_t) :: outcome
         end function wfpsf_size_profile_fwhm
 

@@ -18,8 +18,12 @@ contains
     end procedure image_ee_radius
 
     module procedure image_ee_radius_derivative
-        call report(wfpsf_size_ee_radius_derivative(self%pointer, change%pointer, x - 1, y - 1, &
-            fraction, pointer_of(options), derivative), stat, errmsg)
+        type(c_ptr) :: other
+
+        other = c_null_ptr
+        if (present(second)) other = second%pointer
+        call report(wfpsf_size_ee_radius_derivative(self%pointer, change%pointer, other, x - 1, &
+            y - 1, fraction, pointer_of(options), derivative, error), stat, errmsg)
     end procedure image_ee_radius_derivative
 
     module procedure image_radial_profile
@@ -28,13 +32,16 @@ contains
         ! A negative count makes the library refuse arrays of different sizes.
         n = size(radii, kind=c_int64_t)
         if (size(profile, kind=c_int64_t) /= n) n = -1
+        if (present(errors)) then
+            if (size(errors, kind=c_int64_t) /= n) n = -1
+        end if
         call report(wfpsf_size_profile(self%pointer, x - 1, y - 1, n, radii, pointer_of(options), &
-            profile), stat, errmsg)
+            profile, errors), stat, errmsg)
     end procedure image_radial_profile
 
     module procedure image_profile_fwhm
-        call report(wfpsf_size_profile_fwhm(self%pointer, x - 1, y - 1, pointer_of(options), fwhm), &
-            stat, errmsg)
+        call report(wfpsf_size_profile_fwhm(self%pointer, x - 1, y - 1, pointer_of(options), fwhm, &
+            error), stat, errmsg)
     end procedure image_profile_fwhm
 
     module procedure image_moment_sums

@@ -41,7 +41,7 @@ contains
         type(wfpsf_image) :: image, missing, change, influence
         type(wfpsf_moments) :: moments, derivatives
         type(wfpsf_options) :: options
-        real(real64) :: x, y, slope, curvature, variance, sums(6), profile(2), width
+        real(real64) :: x, y, slope, curvature, variance, sums(6), profile(2), errors(2), width
         integer :: i, stat
 
         call gaussian(x0, y0, array)
@@ -80,12 +80,15 @@ contains
         call expect(abs(sums(4) - 16) < 1e-6_real64, "second moment")
         call image%moment_sums(x0, y0, sums, weight=[16.0_real64, 0.0_real64, 16.0_real64])
         call expect(abs(sums(1) - 0.5_real64) < 1e-9_real64, "weighted flux")
-        call image%radial_profile(x0, y0, [0.0_real64, 4.0_real64], profile)
+        call image%radial_profile(x0, y0, [0.0_real64, 4.0_real64], profile, errors)
+        call expect(all(errors >= 0 .and. errors < 1e-9_real64 * profile(1)), "its errors")
         call expect(abs(profile(2) / profile(1) - exp(-0.5_real64)) < 1e-9_real64, "profile")
         call image%profile_fwhm(x0, y0, width)
         call expect(abs(width - 8 * sqrt(2 * log(2.0_real64))) < 1e-8_real64, "its FWHM")
         call image%ee_radius_derivative(image, x0, y0, 0.5_real64, slope)
         call expect(abs(slope) < 1e-9_real64, "more of the same light moves no radius")
+        call image%ee_radius_derivative(image, x0, y0, 0.5_real64, curvature, second=image)
+        call expect(abs(curvature) < 1e-8_real64, "nor the second time")
     end subroutine of_a_masked_gaussian
 
     subroutine of_a_gaussian()

@@ -114,6 +114,7 @@ const WFPSF_OPTION_MOMENTS_METHOD = Int32(350)
 const WFPSF_OPTION_MOMENTS_BACKGROUND = Int32(360)
 const WFPSF_OPTION_MOMENTS_VARIANCE = Int32(370)
 const WFPSF_OPTION_MOMENTS_RESTART = Int32(380)
+const WFPSF_OPTION_MOMENTS_COVARIANCE_ORDER = Int32(390)
 const WFPSF_OPTION_SIZE_TOTAL_FLUX = Int32(400)
 const WFPSF_OPTION_SIZE_BANDWIDTH = Int32(410)
 const WFPSF_OPTION_SIZE_EPS = Int32(420)
@@ -979,6 +980,7 @@ const WFPSF_MOMENTS_MISSING_FRACTION = Int32(190)
 const WFPSF_MOMENTS_AMPLITUDE = Int32(200)
 const WFPSF_MOMENTS_LAST_STEP = Int32(210)
 const WFPSF_MOMENTS_PIXELS = Int32(220)
+const WFPSF_MOMENTS_BACKGROUND = Int32(230)
 
 const wfpsf_moments_measure_pointer = Ref(C_NULL)
 function wfpsf_moments_measure(image, options, out)
@@ -1079,24 +1081,25 @@ function wfpsf_size_fwhm(image, x, y, fwhm)
 end
 
 const wfpsf_size_ee_radius_derivative_pointer = Ref(C_NULL)
-function wfpsf_size_ee_radius_derivative(image, change, x, y, fraction, options, derivative)
-    return ccall(wfpsf_size_ee_radius_derivative_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Float64,
-        Float64, Float64, Ptr{Cvoid}, Ptr{Float64}),
-        image, change, x, y, fraction, options, derivative)
+function wfpsf_size_ee_radius_derivative(image, change, second, x, y, fraction, options, derivative,
+    error)
+    return ccall(wfpsf_size_ee_radius_derivative_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid},
+        Ptr{Cvoid}, Float64, Float64, Float64, Ptr{Cvoid}, Ptr{Float64}, Ptr{Float64}),
+        image, change, second, x, y, fraction, options, derivative, error)
 end
 
 const wfpsf_size_profile_pointer = Ref(C_NULL)
-function wfpsf_size_profile(image, x, y, count, radii, options, profile)
+function wfpsf_size_profile(image, x, y, count, radii, options, profile, errors)
     return ccall(wfpsf_size_profile_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64, Int64,
-        Ptr{Float64}, Ptr{Cvoid}, Ptr{Float64}),
-        image, x, y, count, radii, options, profile)
+        Ptr{Float64}, Ptr{Cvoid}, Ptr{Float64}, Ptr{Float64}),
+        image, x, y, count, radii, options, profile, errors)
 end
 
 const wfpsf_size_profile_fwhm_pointer = Ref(C_NULL)
-function wfpsf_size_profile_fwhm(image, x, y, options, fwhm)
+function wfpsf_size_profile_fwhm(image, x, y, options, fwhm, error)
     return ccall(wfpsf_size_profile_fwhm_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64,
-        Ptr{Cvoid}, Ptr{Float64}),
-        image, x, y, options, fwhm)
+        Ptr{Cvoid}, Ptr{Float64}, Ptr{Float64}),
+        image, x, y, options, fwhm, error)
 end
 
 # study.h

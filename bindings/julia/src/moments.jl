@@ -3,7 +3,8 @@
 const MOMENTS_PROPERTIES = constants_of("WFPSF_MOMENTS_")
 const MOMENTS_OPTIONS = (:moments_tolerance, :moments_max_passes, :moments_guess_x,
                          :moments_guess_y, :moments_guess_sigma, :moments_method,
-                         :moments_background, :moments_variance, :moments_restart)
+                         :moments_background, :moments_variance, :moments_restart,
+                         :moments_covariance_order)
 
 """
 Moments of an image. Lengths are in pixels of the image; the centroid counts from the centre of the
@@ -26,6 +27,7 @@ first pixel at (1, 1). What does not apply is NaN.
 - `amplitude`: central value of the best-fit Gaussian
 - `last_step`: length of the last step, whitened
 - `pixels`: visited, all passes together
+- `background`: fitted, or as it was given
 """
 struct Moments
     status::Int32
@@ -51,6 +53,7 @@ struct Moments
     amplitude::Float64
     last_step::Float64
     pixels::Float64
+    background::Float64
 end
 
 const MOMENTS_FIELDS = fieldnames(Moments)[2:end]
@@ -104,8 +107,8 @@ moment (Kannawadi et al. 2016, Eqs. 13 and 18).
 Options: `moments_tolerance`, `moments_max_passes`, and the first guess `moments_guess_x`,
 `moments_guess_y`, `moments_guess_sigma`, in pixels of the image, the centre of the first pixel
 being (1, 1); `moments_method` (0: the adaptive weight; 1: least squares at pixel centres, for stars
-smaller than their pixels; 2: a round weight), `moments_background`, `moments_variance` and
-`moments_restart`.
+smaller than their pixels; 2: a round weight; 3: as 1, with a constant background that is fitted),
+`moments_background`, `moments_variance` and `moments_restart`.
 
 `missing`: an image that is not 0 where a pixel is missing; these are solved for. `variance`: an
 image of each pixel's noise variance, for [`moments_covariance`](@ref).
@@ -122,8 +125,8 @@ end
     moments_covariance(image, names; missing = nothing, variance = nothing, options...)
 
 Covariance matrix of the named adaptive moments, such as `(:centroid_x, :sigma, :e1)`, to first
-order in the noise, whose variance comes as an image or as the option `moments_variance`. Other
-arguments as for [`adaptive_moments`](@ref).
+order in the noise, or to the second with `moments_covariance_order = 2`. The noise's variance comes
+as an image or as the option `moments_variance`. Other arguments as for [`adaptive_moments`](@ref).
 """
 function moments_covariance(image::Image, names; missing = nothing, variance = nothing,
                             keywords...)

@@ -58,45 +58,49 @@ function fwhm(image::Image, x::Real, y::Real)
 end
 
 """
-    ee_radius_derivative(image, change, x, y, fraction = 0.5; options...)
+    ee_radius_derivative(image, change, x, y, fraction = 0.5; second = nothing, options...)
 
-Derivative of [`ee_radius`](@ref), of the band-limited image, as `image + t * change` departs from
-t = 0. Options as for [`encircled_energy`](@ref).
+`(derivative, error)`: derivative of [`ee_radius`](@ref), of the band-limited image, as
+`image + t * change` departs from t = 0, and an estimate of its error. With a `second` change, the
+mixed second derivative by both. Options as for [`encircled_energy`](@ref).
 """
 function ee_radius_derivative(image::Image, change::Image, x::Real, y::Real, fraction::Real = 0.5;
-                              keywords...)
-    derivative = Ref{Float64}()
+                              second = nothing, keywords...)
+    derivative, error = Ref{Float64}(), Ref{Float64}()
+    other = second === nothing ? C_NULL : second
     with_options(SIZE_OPTIONS, keywords) do options
-        check(LibWfpsf.wfpsf_size_ee_radius_derivative(image, change, x - 1, y - 1, fraction,
-                                                       options, derivative))
+        check(LibWfpsf.wfpsf_size_ee_radius_derivative(image, change, other, x - 1, y - 1, fraction,
+                                                       options, derivative, error))
     end
-    return derivative[]
+    return (derivative = derivative[], error = error[])
 end
 
 """
     radial_profile(image, x, y, radii; options...)
 
-Means of the band-limited image on circles about (x, y). Options: `size_bandwidth`, `size_eps`.
+`(profile, errors)`: means of the band-limited image on circles about (x, y), and estimates of their
+errors. Options: `size_bandwidth`, `size_eps`.
 """
 function radial_profile(image::Image, x::Real, y::Real, radii; keywords...)
     given = collect(Float64, radii)
-    profile = similar(given)
+    profile, errors = similar(given), similar(given)
     with_options(SIZE_OPTIONS, keywords) do options
         check(LibWfpsf.wfpsf_size_profile(image, x - 1, y - 1, length(given), given, options,
-                                          profile))
+                                          profile, errors))
     end
-    return profile
+    return (profile = profile, errors = errors)
 end
 
 """
     profile_fwhm(image, x, y; options...)
 
-Full width at half maximum of the [`radial_profile`](@ref) about (x, y).
+`(fwhm, error)`: full width at half maximum of the [`radial_profile`](@ref) about (x, y), and an
+estimate of its error.
 """
 function profile_fwhm(image::Image, x::Real, y::Real; keywords...)
-    width = Ref{Float64}()
+    width, error = Ref{Float64}(), Ref{Float64}()
     with_options(SIZE_OPTIONS, keywords) do options
-        check(LibWfpsf.wfpsf_size_profile_fwhm(image, x - 1, y - 1, options, width))
+        check(LibWfpsf.wfpsf_size_profile_fwhm(image, x - 1, y - 1, options, width, error))
     end
-    return width[]
+    return (fwhm = width[], error = error[])
 end

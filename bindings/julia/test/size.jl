@@ -22,7 +22,9 @@ end
 
 @test fwhm(image, 35.4, 37.2) ≈ sigma * sqrt(8log(2)) atol = 0.3
 
-@test profile_fwhm(image, 35.4, 37.2) ≈ sigma * sqrt(8log(2)) atol = 1e-6
-profile = radial_profile(image, 35.4, 37.2, [0, 5])
+@test profile_fwhm(image, 35.4, 37.2).fwhm ≈ sigma * sqrt(8log(2)) atol = 1e-6
+profile, errors = radial_profile(image, 35.4, 37.2, [0, 5])
 @test profile[2] / profile[1] ≈ exp(-25 / (2 * sigma^2)) atol = 1e-8
-@test ee_radius_derivative(image, image, 35.4, 37.2; size_eps = 1e-9) ≈ 0 atol = 1e-8
+@test all(0 .<= errors .< 1e-10 * profile[1])
+@test ee_radius_derivative(image, image, 35.4, 37.2; size_eps = 1e-9).derivative ≈ 0 atol = 1e-8
+@test ee_radius_derivative(image, image, 35.4, 37.2; second = image).derivative ≈ 0 atol = 1e-8

@@ -86,6 +86,7 @@ WFPSF_OPTION_MOMENTS_METHOD = 350
 WFPSF_OPTION_MOMENTS_BACKGROUND = 360
 WFPSF_OPTION_MOMENTS_VARIANCE = 370
 WFPSF_OPTION_MOMENTS_RESTART = 380
+WFPSF_OPTION_MOMENTS_COVARIANCE_ORDER = 390
 WFPSF_OPTION_SIZE_TOTAL_FLUX = 400
 WFPSF_OPTION_SIZE_BANDWIDTH = 410
 WFPSF_OPTION_SIZE_EPS = 420
@@ -231,6 +232,7 @@ WFPSF_MOMENTS_MISSING_FRACTION = 190
 WFPSF_MOMENTS_AMPLITUDE = 200
 WFPSF_MOMENTS_LAST_STEP = 210
 WFPSF_MOMENTS_PIXELS = 220
+WFPSF_MOMENTS_BACKGROUND = 230
 
 # size.h
 WFPSF_SIZE_BANDLIMITED = 1
@@ -465,12 +467,12 @@ FUNCTIONS = {
     "wfpsf_size_ee_radius": (c_int32, [wfpsf_image_p, c_double, c_double, c_double, c_int32,
         wfpsf_options_p, POINTER(c_double), POINTER(c_double)]),
     "wfpsf_size_fwhm": (c_int32, [wfpsf_image_p, c_double, c_double, POINTER(c_double)]),
-    "wfpsf_size_ee_radius_derivative": (c_int32, [wfpsf_image_p, wfpsf_image_p, c_double, c_double,
-        c_double, wfpsf_options_p, POINTER(c_double)]),
+    "wfpsf_size_ee_radius_derivative": (c_int32, [wfpsf_image_p, wfpsf_image_p, wfpsf_image_p,
+        c_double, c_double, c_double, wfpsf_options_p, POINTER(c_double), POINTER(c_double)]),
     "wfpsf_size_profile": (c_int32, [wfpsf_image_p, c_double, c_double, c_int64, c_void_p,
-        wfpsf_options_p, c_void_p]),
+        wfpsf_options_p, c_void_p, c_void_p]),
     "wfpsf_size_profile_fwhm": (c_int32, [wfpsf_image_p, c_double, c_double, wfpsf_options_p,
-        POINTER(c_double)]),
+        POINTER(c_double), POINTER(c_double)]),
     "wfpsf_study_create": (c_int32, [wfpsf_instrument_p, c_int32, wfpsf_options_p,
         POINTER(wfpsf_study_p)]),
     "wfpsf_study_destroy": (None, [wfpsf_study_p]),

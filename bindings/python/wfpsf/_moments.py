@@ -18,7 +18,7 @@ from ._status import check
 MOMENTS = constants_of("WFPSF_MOMENTS_")
 MOMENTS_OPTIONS = ("moments_tolerance", "moments_max_passes", "moments_guess_x", "moments_guess_y",
                    "moments_guess_sigma", "moments_method", "moments_background",
-                   "moments_variance", "moments_restart")
+                   "moments_variance", "moments_restart", "moments_covariance_order")
 
 Moments = collections.namedtuple("Moments", ("status",) + tuple(MOMENTS))
 Moments.__doc__ = """Moments of an image.
@@ -109,7 +109,7 @@ def adaptive_moments(image, missing=None, variance=None, strict=True, **options)
         First guess, pixels of the image, the centre of the first one being (0, 0).
     moments_method : int, optional
         0: the adaptive weight; 1: least squares at pixel centres, for stars smaller than their
-        pixels; 2: a round weight.
+        pixels; 2: a round weight; 3: as 1, with a constant background that is fitted.
     moments_tolerance, moments_max_passes, moments_background, moments_variance, moments_restart
 
     >>> y, x = np.mgrid[:32, :32]
@@ -123,8 +123,8 @@ def adaptive_moments(image, missing=None, variance=None, strict=True, **options)
 
 def moments_covariance(image, names, missing=None, variance=None, **options):
     """Covariance matrix of the named adaptive moments, such as ("centroid_x", "sigma", "e1"), to
-    first order in the noise, whose variance comes as an image or as the option
-    ``moments_variance``. Other arguments as for :func:`adaptive_moments`."""
+    first order in the noise, or to second with ``moments_covariance_order=2``. The noise's variance
+    comes as an image or as the option ``moments_variance``. Other arguments as for :func:`adaptive_moments`."""
     keys = [choose(MOMENTS, "name", name) for name in names]
     value = ctypes.c_double()
     with _adaptive(as_image(image), missing, variance, True, options) as result:

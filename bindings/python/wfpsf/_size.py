@@ -17,6 +17,9 @@ SIZE_OPTIONS = ("size_total_flux", "size_bandwidth", "size_eps")
 
 Energy = collections.namedtuple("Energy", "fraction error")
 Radius = collections.namedtuple("Radius", "radius error")
+Derivative = collections.namedtuple("Derivative", "derivative error")
+Profile = collections.namedtuple("Profile", "profile errors")
+Width = collections.namedtuple("Width", "fwhm error")
 
 
 def encircled_energy(image, x, y, radius, **options):
@@ -50,14 +53,17 @@ def ee_radius(image, x, y, fraction=0.5, method="bandlimited", **options):
     return Radius(radius.value, error.value)
 
 
-def ee_radius_derivative(image, change, x, y, fraction=0.5, **options):
-    """Derivative of :func:`ee_radius`, of the band-limited image, as ``image + t * change`` departs
-    from t = 0. Options as for :func:`encircled_energy`."""
-    image, change, derivative = as_image(image), as_image(change), ctypes.c_double()
+def ee_radius_derivative(image, change, x, y, fraction=0.5, second=None, **options):
+    """(derivative, error): derivative of :func:`ee_radius`, of the band-limited image, as
+    ``image + t * change`` departs from t = 0, and an estimate of its error. With ``second``, another
+    change, the mixed second derivative. Options as for :func:`encircled_energy`."""
+    image, change = as_image(image), as_image(change)
+    second = None if second is None else as_image(second)
+    derivative, error = ctypes.c_double(), ctypes.c_double()
     with chosen(SIZE_OPTIONS, options) as handle:
-        check(lib.wfpsf_size_ee_radius_derivative(image, change, x, y, fraction,
-                                                  handle, derivative))
-    return derivative.value
+        check(lib.wfpsf_size_ee_radius_derivative(image, change, second, x, y, fraction, handle,
+                                                  derivative, error))
+    return Derivative(derivative.value, error.value)
 
 
 def fwhm(image, x, y):
@@ -69,19 +75,20 @@ def fwhm(image, x, y):
 
 
 def radial_profile(image, x, y, radii, **options):
-    """Means of the band-limited image on circles about (x, y), an array. Options: size_bandwidth,
-    size_eps."""
+    """(profile, errors): means of the band-limited image on circles about (x, y), and estimates of
+    their errors, arrays. Options: size_bandwidth, size_eps."""
     image, radii = as_image(image), numbers("radii", radii)
-    profile = np.empty_like(radii)
+    profile, errors = np.empty_like(radii), np.empty_like(radii)
     with chosen(SIZE_OPTIONS, options) as handle:
         check(lib.wfpsf_size_profile(image, x, y, len(radii), radii.ctypes.data, handle,
-                                     profile.ctypes.data))
-    return profile
+                                     profile.ctypes.data, errors.ctypes.data))
+    return Profile(profile, errors)
 
 
 def profile_fwhm(image, x, y, **options):
-    """Full width at half maximum of the :func:`radial_profile` about (x, y)."""
-    image, width = as_image(image), ctypes.c_double()
+    """(fwhm, error): full width at half maximum of the :func:`radial_profile` about (x, y), and an
+    estimate of its error."""
+    image, width, error = as_image(image), ctypes.c_double(), ctypes.c_double()
     with chosen(SIZE_OPTIONS, options) as handle:
-        check(lib.wfpsf_size_profile_fwhm(image, x, y, handle, width))
-    return width.value
+        check(lib.wfpsf_size_profile_fwhm(image, x, y, handle, width, error))
+    return Width(width.value, error.value)

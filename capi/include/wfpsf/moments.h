@@ -43,7 +43,8 @@ typedef struct wfpsf_moments wfpsf_moments;
     X(MISSING_FRACTION, 190, "fraction of the squared weight that falls on missing pixels")        \
     X(AMPLITUDE, 200, "central value of the best-fit Gaussian")                                    \
     X(LAST_STEP, 210, "length of the last step, whitened")                                         \
-    X(PIXELS, 220, "pixels visited, all passes together")
+    X(PIXELS, 220, "pixels visited, all passes together")                                          \
+    X(BACKGROUND, 230, "background: fitted, or as it was given")
 
 #define WFPSF_MOMENTS_PROPERTY_ENUM(name, key, text) WFPSF_MOMENTS_##name = (key),
 enum { WFPSF_MOMENTS_PROPERTY_LIST(WFPSF_MOMENTS_PROPERTY_ENUM) };
@@ -59,7 +60,8 @@ enum { WFPSF_MOMENTS_PROPERTY_LIST(WFPSF_MOMENTS_PROPERTY_ENUM) };
  * ERROR_MOMENTS_UNRESOLVED, or WARNING_UNDERSAMPLED where the minor axis is below 0.9 pixels and
  * the result depends on where the pixels fall by some per cent. Method 2 keeps the weight
  * round: SIGMA is the weight's, E1 and E2 are the weighted moments', and M is the matrix of that
- * size and shape.
+ * size and shape. Method 3 fits A w + b, a constant background b with it: every pixel of the image
+ * that is not missing tells of b, so all must be finite, and MOMENTS_BACKGROUND is not used.
  *
  * Given:    image    any size and strides
  *           options  MOMENTS_*
@@ -143,10 +145,18 @@ WFPSF_EXPORT wfpsf_status wfpsf_moments_get(const wfpsf_moments *moments, int32_
                                             double *value);
 
 /**
- * Covariance of two numbers of an adaptive result, to first order in the noise. At a
- * signal-to-noise ratio of 50 it is good to 5%, at 10 to about 20%.
+ * Covariance of two numbers of an adaptive result. MOMENTS_COVARIANCE_ORDER 1 is the first order in
+ * the noise: standard deviations are good to 5% at a signal-to-noise ratio of 50; at 10 those of
+ * second moments and BETA are too small by a fifth. Order 2 has the next terms too: good to 20% at
+ * 10. It takes some 10 ms, and is NaN where the expansion fails, as of E and BETA where e is
+ * far below its own error. At 7 and below second moments have tails that no expansion describes.
+ * All this is of images without noise; of noisy ones at 10 it is true in the median, but a single
+ * prediction scatters by a third or more, as the moments do that it is made of.
  *
- * Given:    key_a, key_b  CENTROID_X to FLUX; the same key twice for a variance
+ * The signal-to-noise ratio is that of the amplitude of the fit, its deviation being that at known
+ * M. Noise must be normal for order 2.
+ *
+ * Given:    key_a, key_b  CENTROID_X to FLUX, or BACKGROUND; the same key twice for a variance
  * Status:   ERROR_NULL; ERROR_UNKNOWN_NAME; ERROR_ARGUMENT: the result has no covariance, because
  *           no variance was given or there is no solution
  */
@@ -165,8 +175,8 @@ WFPSF_EXPORT wfpsf_status wfpsf_moments_covariance(const wfpsf_moments *moments,
  *           second   NULL; or another change, for the mixed second derivative of
  *                    I + s change + t second by s and t. The same change twice gives the second
  *                    derivative along it, the term that a linear law neglects
- * Returned: out      a result whose properties CENTROID_X to FLUX are derivatives; the others are
- *                    NaN. E and BETA have none where e = 0
+ * Returned: out      a result whose properties CENTROID_X to FLUX and BACKGROUND are derivatives;
+ *                    the others are NaN. E and BETA have none where e = 0
  * Status:   ERROR_NULL; ERROR_SIZE; ERROR_ARGUMENT (moments is no solution, or a derivative
  *           itself); ERROR_NOT_FINITE; ERROR_NO_MEMORY
  */
@@ -180,7 +190,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_moments_differentiate(const wfpsf_moments *momen
  * The influence function: the derivative of one number of a result by every pixel.
  *
  * Given:    moments, image  as for wfpsf_moments_differentiate()
- *           key             CENTROID_X to FLUX
+ *           key             CENTROID_X to FLUX, or BACKGROUND
  * Returned: influence       float64 image of the same size
  * Status:   as for wfpsf_moments_differentiate(); ERROR_UNKNOWN_NAME, ERROR_TYPE
  */

@@ -73,15 +73,17 @@ enum { WFPSF_OPTION_REAL = 1, WFPSF_OPTION_INTEGER = 2 };
     X(MOMENTS_GUESS_Y, 330, REAL, WFPSF_AUTOMATIC, -1e15, 1e15, "first guess of the centroid")     \
     X(MOMENTS_GUESS_SIGMA, 340, REAL, WFPSF_AUTOMATIC, 1e-3, 1e9,                                  \
       "first guess of the size sigma, pixels of the image")                                        \
-    X(MOMENTS_METHOD, 350, INTEGER, 0, 0, 2,                                                       \
+    X(MOMENTS_METHOD, 350, INTEGER, 0, 0, 3,                                                       \
       "0: the adaptive weight; 1: least squares at pixel centres, for small stars; 2: a round "    \
-      "weight")                                                                                    \
+      "weight; 3: as 1, with a constant background that is fitted")                                \
     X(MOMENTS_BACKGROUND, 360, REAL, 0, -1.7976931348623157e308, 1.7976931348623157e308,           \
       "constant that is taken off every pixel before adaptive moments")                            \
     X(MOMENTS_VARIANCE, 370, REAL, WFPSF_AUTOMATIC, 0, 1.7976931348623157e308,                     \
       "variance of every pixel's noise, for covariances; automatic: not known")                    \
     X(MOMENTS_RESTART, 380, INTEGER, 1, 0, 1,                                                      \
       "0: fail, rather than start elsewhere, if the first guess leads to no solution")             \
+    X(MOMENTS_COVARIANCE_ORDER, 390, INTEGER, 1, 1, 2,                                             \
+      "1: covariances to first order in the noise; 2: with the next terms, for S/N 10 to 50")      \
     X(SIZE_TOTAL_FLUX, 400, REAL, WFPSF_AUTOMATIC, 2.2250738585072014e-308,                        \
       1.7976931348623157e308, "flux that counts as 100%; automatic: the sum of all pixels")        \
     X(SIZE_BANDWIDTH, 410, REAL, 0.25, 1e-3, 0.45,                                                 \

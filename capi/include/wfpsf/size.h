@@ -72,17 +72,19 @@ WFPSF_EXPORT wfpsf_status wfpsf_size_fwhm(const wfpsf_image *image, double x, do
  * changes too.
  *
  * Given:    change      image of the same size
+ *           second      NULL; or another change, for the mixed second derivative of
+ *                       I + s change + t second by s and t. The same change twice gives the second
+ *                       derivative along it, the term that a linear law neglects
  *           x, y        centre
  *           fraction    in (0, 1)
  *           options     SIZE_TOTAL_FLUX, SIZE_BANDWIDTH, SIZE_EPS
  * Returned: derivative  pixels
+ *           error       estimate of its error; may be NULL
  * Status:   as for wfpsf_size_ee_radius(), ERROR_SIZE
  */
-WFPSF_EXPORT wfpsf_status wfpsf_size_ee_radius_derivative(const wfpsf_image *image,
-                                                          const wfpsf_image *change, double x,
-                                                          double y, double fraction,
-                                                          const wfpsf_options *options,
-                                                          double *derivative);
+WFPSF_EXPORT wfpsf_status wfpsf_size_ee_radius_derivative(
+    const wfpsf_image *image, const wfpsf_image *change, const wfpsf_image *second, double x,
+    double y, double fraction, const wfpsf_options *options, double *derivative, double *error);
 
 /**
  * Radial profile: means of the band-limited image on circles.
@@ -92,11 +94,13 @@ WFPSF_EXPORT wfpsf_status wfpsf_size_ee_radius_derivative(const wfpsf_image *ima
  *           radii    pixels, >= 0; the circles must lie inside the image
  *           options  SIZE_BANDWIDTH, SIZE_EPS
  * Returned: profile  a mean for every radius
+ *           errors   estimates of their errors; may be NULL
  * Status:   ERROR_NULL, ERROR_SIZE, ERROR_RANGE, ERROR_NOT_FINITE, ERROR_SIZE_NOT_REACHED
  */
 WFPSF_EXPORT wfpsf_status wfpsf_size_profile(const wfpsf_image *image, double x, double y,
                                              int64_t count, const double *radii,
-                                             const wfpsf_options *options, double *profile);
+                                             const wfpsf_options *options, double *profile,
+                                             double *errors);
 
 /**
  * Full width at half maximum of that profile: twice the smallest radius at which it falls to half
@@ -105,10 +109,12 @@ WFPSF_EXPORT wfpsf_status wfpsf_size_profile(const wfpsf_image *image, double x,
  * Given:    x, y     centre, meant to be the peak
  *           options  SIZE_BANDWIDTH, SIZE_EPS
  * Returned: fwhm
+ *           error    estimate of its error; may be NULL
  * Status:   ERROR_NULL, ERROR_NOT_FINITE, ERROR_MOMENTS_FLUX, ERROR_SIZE_NOT_REACHED
  */
 WFPSF_EXPORT wfpsf_status wfpsf_size_profile_fwhm(const wfpsf_image *image, double x, double y,
-                                                  const wfpsf_options *options, double *fwhm);
+                                                  const wfpsf_options *options, double *fwhm,
+                                                  double *error);
 
 #ifdef __cplusplus
 }

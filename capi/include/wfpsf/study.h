@@ -23,7 +23,8 @@ typedef struct wfpsf_study wfpsf_study;
  * X(NAME, key, file, text): the tables. Each has a header of column names; wfpsf_study_write_csv()
  * writes it to `file`.csv. Rows with struts 0 are of the bare annulus. `paper` is what the paper
  * prints, for its instrument and SCA. Sensitivities are (1/q) dq/dp of sizes q, dq/dp of e1 and e2,
- * at alpha = 0.02, alpha' = 0.002, alpha+ = 0.
+ * at alpha = 0.02, alpha' = 0.002, alpha+ = 0; `second_derivative` is the second one in the same
+ * units: half of it times dp^2 is what a linear law neglects.
  */
 #define WFPSF_STUDY_TABLE_LIST(X)                                                                  \
     X(BANDS, 10, "table_bands", "wavelengths of the bands (Table 1), nm")                          \
@@ -61,7 +62,9 @@ enum { WFPSF_STUDY_TABLE_LIST(WFPSF_STUDY_ENUM) };
  *                       JITTER_*, CHARGE_DIFFUSION, PIXEL_RESPONSE, extra Zernikes, an OPD map,
  *                       MEMORY_LIMIT and the progress function
  * Returned: out         the handle; NULL on failure
- * Status:   ERROR_NULL, ERROR_RANGE, ERROR_NO_MEMORY, ERROR_CANCELLED, ERROR_MEMORY_LIMIT; the
+ * Status:   WARNING_NOT_CERTIFIED if the error estimate of a size, relative, or of an ellipticity
+ *           stays above 4 EPS;
+ *           ERROR_NULL, ERROR_RANGE, ERROR_NO_MEMORY, ERROR_CANCELLED, ERROR_MEMORY_LIMIT; the
  *           status of moments (ERROR_MOMENTS_*) that do not exist, for PSFs too large or too odd
  */
 WFPSF_EXPORT wfpsf_status wfpsf_study_create(const wfpsf_instrument *instrument, int32_t sca,

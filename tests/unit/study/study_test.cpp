@@ -66,7 +66,7 @@ TEST(Study, FigureOfHalfLightIsThatOfItsImages) {
     const auto ee50 = [&s](const Ipc &ipc) {
         const Plane<double> image = s.star.image(ipc);
         const Gaussian w = solved(s.star, image, s.band).weight;
-        return s.half_light(image, w.x, w.y);
+        return s.half_light(image, w.x, w.y).value;
     };
     const double from = ee50({});
     for (size_t i = 0; i < table.rows.size(); i += 3) {
@@ -90,14 +90,70 @@ TEST(Study, SlopesOfHalfLight) {
                 ipc.*members[p] += change;
                 const Plane<double> image = s.star.image(ipc);
                 const Gaussian w = solved(s.star, image, s.band).weight;
-                return encircled_radius(image.view(), w.x, w.y, 0.5, s.light, s.encircled(1e-12))
-                    .radius;
+                return encircled_radius(image.view(), w.x, w.y, 0.5, s.light[0], s.encircled(1e-12))
+                    .value;
             };
             const auto slope = [&](double h) { return (ee50(h) - ee50(-h)) / (2 * h) / ee50(0); };
             const auto change = s.star.change(p);
             EXPECT_NEAR(slopes.along(change, moments.along(change)),
                         (4 * slope(1e-3) - slope(2e-3)) / 3, 2e-6);
         }
+    }
+}
+
+// By aberrations and blur, against stars that are made anew, and about the axis by IPC twice.
+TEST(Study, SlopesOfHalfLightByWhatChangesTheStar) {
+    const auto star = [](size_t j, double more, double blur) {
+        StudySource source = c5_source(1e-9);
+        source.settings.blur = {blur, 0, blur};
+        source.wavefront = [=](int of) { return c5_wavefront(of, j, more); };
+        StarMaker maker(source);
+        return BandStar(maker, c5().band("J129"), true);
+    };
+    const auto ee50 = [](const BandStar &s) {
+        const Gaussian &w = s.nominal.weight;
+        return encircled_radius(s.image.view(), w.x, w.y, 0.5, s.light[0], s.encircled(1e-11))
+            .value;
+    };
+    const BandStar s = star(4, 0, 0.01);
+    const double own = ee50(s);
+    const HalfLightSlopes slopes(s);
+    const StarSlopes moments(s.star, s.image, s.nominal);
+    const auto changes = zernike_changes(s.psf, s.star, c5().diameter_m() / 2, 4, 11);
+    for (const size_t j : {4, 5, 8, 11}) {
+        const Plane<double> change = changes[j - 4].star.image(nominal_ipc);
+        const auto difference = [&](double h) {
+            return (ee50(star(j, h, 0.01)) - ee50(star(j, -h, 0.01))) / (2 * h) / own;
+        };
+        EXPECT_NEAR(slopes.along(change.view(), moments.along(change.view()), changes[j - 4].light),
+                    (4 * difference(1e-3) - difference(2e-3)) / 3, 1e-5)
+            << "Z" << j;
+    }
+    const auto by_blur = [&](double h) {
+        return (ee50(star(4, 0, 0.01 + h)) - ee50(star(4, 0, 0.01 - h))) / (2 * h) / own;
+    };
+    EXPECT_NEAR(slopes.along_blur(moments.along_blur({1, 0, 1})),
+                (4 * by_blur(1e-3) - by_blur(2e-3)) / 3, 1e-4);
+
+    const AxisHalfLight about_axis(s);
+    double Ipc::*const members[] = {&Ipc::alpha, &Ipc::alpha_prime, &Ipc::alpha_plus};
+    for (size_t p = 0; p < ipc_parameters; ++p) {
+        const auto by_ipc = [&](double change) {
+            Ipc ipc = nominal_ipc;
+            ipc.*members[p] += change;
+            const double centre = s.star.centre();
+            const Plane<double> image = s.star.image(ipc);
+            return encircled_radius(image.view(), centre, centre, 0.5, s.light[0],
+                                    s.encircled(1e-12))
+                .value;
+        };
+        const double middle = by_ipc(0);
+        const auto second = [&](double h) {
+            return (by_ipc(h) - 2 * middle + by_ipc(-h)) / (h * h) / middle;
+        };
+        const AxisHalfLight::Slope slope = about_axis.along(s.star.change(p));
+        EXPECT_NEAR(slope.first, (by_ipc(1e-4) - by_ipc(-1e-4)) / 2e-4 / middle, 1e-5);
+        EXPECT_NEAR(slope.second, (4 * second(1e-3) - second(2e-3)) / 3, 1e-4);
     }
 }
 
