@@ -23,6 +23,16 @@ write_basic_package_version_file(${PROJECT_BINARY_DIR}/wfpsf-config-version.cmak
   COMPATIBILITY SameMajorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/wfpsf-config-version.cmake DESTINATION ${package_folder})
 
+# The Julia package, to be loaded from there: Pkg.develop(path = ...) or LOAD_PATH.
+set(julia_folder ${CMAKE_INSTALL_DATADIR}/wfpsf/julia)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/bindings/julia/src DESTINATION ${julia_folder})
+install(FILES ${PROJECT_SOURCE_DIR}/bindings/julia/Project.toml DESTINATION ${julia_folder})
+cmake_path(RELATIVE_PATH CMAKE_INSTALL_FULL_LIBDIR
+  BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX}/${julia_folder} OUTPUT_VARIABLE julia_libdir)
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/julia_installed.txt CONTENT "${julia_libdir}\n")
+install(FILES ${PROJECT_BINARY_DIR}/julia_installed.txt RENAME installed.txt
+  DESTINATION ${julia_folder})
+
 # The prefix is found from the .pc file's own place, so that the tree can be moved.
 cmake_path(SET pkgconfig_folder ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX

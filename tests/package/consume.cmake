@@ -1,4 +1,4 @@
-# What a user does with wfpsf: programs in C, C++, Fortran and Python, with the same output.
+# What a user does with wfpsf: programs in all languages, with the same output.
 function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
@@ -30,7 +30,7 @@ function(consume_by_cmake build)
   run_alike(${build}/consumer_c ${build}/consumer_cpp ${build}/consumer_fortran)
 endfunction()
 
-# The same against an installed tree by pkg-config and the compilers alone, and in Python.
+# The same against an installed tree by pkg-config and the compilers alone, in Python and in Julia.
 function(consume_by_pkgconfig tree build)
   file(MAKE_DIRECTORY ${build})
   set(ENV{PKG_CONFIG_PATH} ${tree}/${LIBDIR}/pkgconfig)
@@ -47,5 +47,11 @@ function(consume_by_pkgconfig tree build)
   if(PYTHON)
     set(python ${CONSUMER}/main.py)
   endif()
-  run_alike(${build}/c ${build}/cpp ${build}/fortran ${python})
+  # A depot of its own: Julia compiles the package for the place where it stands.
+  set(ENV{JULIA_LOAD_PATH} ${tree}/share/wfpsf/julia:@stdlib)
+  set(ENV{JULIA_DEPOT_PATH} ${build}/depot:)
+  if(JULIA)
+    set(julia ${CONSUMER}/main.jl)
+  endif()
+  run_alike(${build}/c ${build}/cpp ${build}/fortran ${python} ${julia})
 endfunction()

@@ -10,10 +10,10 @@ module wfpsf_constants
     private :: c_int32_t
 
     ! version.h
-    integer(c_int32_t), parameter :: wfpsf_version_major = 0
-    integer(c_int32_t), parameter :: wfpsf_version_minor = 1
+    integer(c_int32_t), parameter :: wfpsf_version_major = 1
+    integer(c_int32_t), parameter :: wfpsf_version_minor = 0
     integer(c_int32_t), parameter :: wfpsf_version_patch = 0
-    integer(c_int32_t), parameter :: wfpsf_headers_abi_number = 0
+    integer(c_int32_t), parameter :: wfpsf_headers_abi_number = 1
 
     ! status.h
     integer(c_int32_t), parameter :: wfpsf_ok = 0

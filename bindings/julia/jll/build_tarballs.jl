@@ -10,7 +10,7 @@
 using BinaryBuilder, Pkg, SHA
 
 name = "wfpsf"
-version = v"0.1.0"
+version = v"1.0.0"
 tarball = abspath(ENV["WFPSF_TARBALL"])
 sources = [
     FileSource("file://" * tarball, bytes2hex(open(sha256, tarball))),

@@ -10,10 +10,10 @@ module LibWfpsf
 using Libdl
 
 # version.h
-const WFPSF_VERSION_MAJOR = Int32(0)
-const WFPSF_VERSION_MINOR = Int32(1)
+const WFPSF_VERSION_MAJOR = Int32(1)
+const WFPSF_VERSION_MINOR = Int32(0)
 const WFPSF_VERSION_PATCH = Int32(0)
-const WFPSF_ABI_NUMBER = Int32(0)
+const WFPSF_ABI_NUMBER = Int32(1)
 
 const wfpsf_version_pointer = Ref(C_NULL)
 function wfpsf_version()

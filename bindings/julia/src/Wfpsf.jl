@@ -21,7 +21,8 @@ WFIRST/Roman PSFs, interpixel capacitance and moments of images, by the shared l
   be called twice; every constructor has a `do`-block form that closes at the end of the block.
 
 The environment variable `WFPSF_LIBRARY` names the shared library when the package is loaded;
-without it the system's loader looks for `libwfpsf`.
+without it, it is the one of the tree that the package was installed in, or else the one that the
+system's loader finds.
 """
 module Wfpsf
 
@@ -70,8 +71,18 @@ include("study.jl")
 "Version of the loaded library."
 version() = VersionNumber(unsafe_string(LibWfpsf.wfpsf_version()))
 
+# Installed, the package stands in <prefix>/share/wfpsf/julia, and says where the library is from
+# there; the file is not in the source tree.
+const INSTALLED = joinpath(dirname(@__DIR__), "installed.txt")
+
+function default_library()
+    name = "libwfpsf.so.$(LibWfpsf.WFPSF_ABI_NUMBER)"
+    return isfile(INSTALLED) ?
+           normpath(joinpath(dirname(INSTALLED), readline(INSTALLED), name)) : name
+end
+
 function __init__()
-    path = get(ENV, "WFPSF_LIBRARY", "libwfpsf")
+    path = get(default_library, ENV, "WFPSF_LIBRARY")
     try
         LibWfpsf.load(path)
     catch failure

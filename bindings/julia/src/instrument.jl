@@ -24,6 +24,11 @@ destroy(::Instrument, pointer) = LibWfpsf.wfpsf_instrument_destroy(pointer)
     constant(instrument, name)
 
 `(value, unit)` of a constant, such as `"diameter"` or `"pixel_scale"`.
+
+```jldoctest
+julia> constant(Instrument("roman-c9"), "pixel_scale")
+(value = 0.11, unit = "arcsec/pixel")
+```
 """
 function constant(instrument::Instrument, name::AbstractString)
     value, unit = Ref{Float64}(), Ref{Cstring}()

@@ -14,6 +14,16 @@ default. Taps lie in [0, 1] and sum to 1 within 1e-12, unless the options say ot
 threads may share it.
 
 Kernels are convolved: out(p) = sum over d of K(d) in(p - d), the paper's Eq. 4.
+
+```jldoctest
+julia> kernel = IPCKernel(0.02, 0.002);
+
+julia> taps(kernel)[1:2, 2]
+[0.02, 0.912]
+
+julia> round(properties(kernel).margin, digits = 12)
+0.84
+```
 """
 mutable struct IPCKernel <: Handle
     pointer::Ptr{Cvoid}

@@ -28,6 +28,15 @@ first pixel at (1, 1). What does not apply is NaN.
 - `last_step`: length of the last step, whitened
 - `pixels`: visited, all passes together
 - `background`: fitted, or as it was given
+
+```jldoctest
+julia> star = [exp(-((x - 16)^2 + (y - 15)^2) / (2 * 3^2)) for x = 1:32, y = 1:32];
+
+julia> found = adaptive_moments(Image(star));
+
+julia> round.((found.sigma, found.centroid_x, found.centroid_y), digits = 6)
+(3.0, 16.0, 15.0)
+```
 """
 struct Moments
     status::Int32

@@ -48,6 +48,18 @@ detected), `pixel_scale_arcsec`, `error_estimate` (numerical error of any pixel,
 peak), `model_error` (of the pupil's geometry against the published mask, same units), `peak`
 (largest fraction of the light in one native pixel), `nodes`, `grid_size`, `grid_step_arcsec`,
 `radius`, `lit_area_m2`, `wavelengths` (how many the PSF is a sum over).
+
+```jldoctest
+julia> psf = PSF(Instrument(), 7, 1292.11; eps = 1e-5);
+
+julia> psf.error_estimate < 1e-5
+true
+
+julia> star = draw(psf, 32, 32);
+
+julia> (size(star), record(star).applied)
+((32, 32), [:pixel_response])
+```
 """
 mutable struct PSF <: Handle
     pointer::Ptr{Cvoid}

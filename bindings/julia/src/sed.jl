@@ -12,6 +12,11 @@ that the table covers. `unit` is what the density counts per unit of wavelength:
 (f_photon) or `:energy` (f_lambda). Immutable: threads may share it.
 
 Others are made by [`power_law`](@ref), [`black_body`](@ref) and [`redshifted`](@ref).
+
+```jldoctest
+julia> photon_density(SED([900, 1000, 1100], [1, 2, 4]), [950, 1050])
+[1.5, 3.0]
+```
 """
 mutable struct SED <: Handle
     pointer::Ptr{Cvoid}

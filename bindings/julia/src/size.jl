@@ -33,6 +33,15 @@ of the first pixel being (1, 1).
 `method`: `:bandlimited` (the band-limited image integrated over the disc), `:pixel_sum` (pixels
 whose centre lies in the circle; Kannawadi et al. 2016, Eq. 25) or `:pixel_interpolated` (GalSim's
 calculateHLR); the last two have NaN for an error. Options as for [`encircled_energy`](@ref).
+
+```jldoctest
+julia> gaussian = [exp(-((x - 41)^2 + (y - 41)^2) / (2 * 4^2)) for x = 1:81, y = 1:81];
+
+julia> half, error = ee_radius(Image(gaussian), 41, 41);
+
+julia> (round(half / 4, digits = 6), error < 1e-9)
+(1.17741, true)
+```
 """
 function ee_radius(image::Image, x::Real, y::Real, fraction::Real = 0.5;
                    method::Symbol = :bandlimited, keywords...)

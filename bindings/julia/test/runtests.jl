@@ -25,7 +25,7 @@ end
     @testset "$subject" for subject in ("handle", "options", "instrument", "design", "image",
                                         "interleave", "sed", "psf", "colours", "varying_psf",
                                         "otf", "ipc", "varying_ipc", "chain", "moments", "size",
-                                        "study")
+                                        "study", "doctests")
         include("$subject.jl")
     end
 end

@@ -13,13 +13,13 @@ def _handle(name):
     return POINTER(type(name, (ctypes.Structure,), {}))
 
 
-VERSION = "0.1.0"  # of the headers
+VERSION = "1.0.0"  # of the headers
 
 # version.h
-WFPSF_VERSION_MAJOR = 0
-WFPSF_VERSION_MINOR = 1
+WFPSF_VERSION_MAJOR = 1
+WFPSF_VERSION_MINOR = 0
 WFPSF_VERSION_PATCH = 0
-WFPSF_ABI_NUMBER = 0
+WFPSF_ABI_NUMBER = 1
 
 # status.h
 WFPSF_OK = 0
