@@ -9,6 +9,7 @@
 #include "instrument/instrument.hpp"
 #include "moments/adaptive.hpp"
 #include "moments/pixel_moments.hpp"
+#include "observation/observation.hpp"
 #include "optics/otf.hpp"
 #include "optics/psf.hpp"
 #include "optics/varying_psf.hpp"
@@ -31,6 +32,10 @@ struct wfpsf_image {
 struct wfpsf_instrument {
     std::shared_ptr<const wfpsf::Instrument> owned; // none if it is compiled in
     const wfpsf::Instrument &instrument;
+};
+
+struct wfpsf_observation {
+    wfpsf::Observation observation;
 };
 
 struct wfpsf_sed {
