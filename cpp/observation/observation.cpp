@@ -14,7 +14,7 @@ namespace {
 
 constexpr double degree = std::numbers::pi / 180;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double margin_pix = 4096; // how far beyond its pixels a detector's WCS reaches
+constexpr double margin_pix = 8192; // how far beyond its pixels a detector's WCS reaches
 
 void check_angle(const char *argument, double value, double largest) {
     if (!std::isfinite(value))

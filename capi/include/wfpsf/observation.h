@@ -9,7 +9,7 @@
  *
  * RA and Dec are degrees in the ICRS, position angles degrees east of north. Pixels count from the
  * first one's centre at (0, 0); a pixel is the square of side 1 about its centre. Each detector has
- * a TAN-SIP WCS of the FITS standard; docs/observation.md has the equations. It reaches 4096 pixels
+ * a TAN-SIP WCS of the FITS standard; docs/observation.md has the equations. It reaches 8192 pixels
  * beyond the detector's edges.
  *
  * By default the distortion inside a detector is that of the field. The tables of GalSim's
@@ -18,7 +18,7 @@
  *
  * Functions that take many positions do not fail over one of them: a position that has no answer
  * gets NaN and is counted in `undefined`. It has none if a number is not finite, |RA| > 1e6 or
- * |Dec| > 90, and if it is more than 4096 pixels off the detector or on the far side of the sky.
+ * |Dec| > 90, and if it is more than 8192 pixels off the detector or on the far side of the sky.
  * Outputs may be the inputs, element by element; they must not overlap in other ways.
  *
  * Thread-safety: an observation is immutable; every function here is thread-safe.
@@ -87,7 +87,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_observation_create_on_date(const wfpsf_instrumen
  * The observation that has a pixel of a detector at a place on the sky, to 1e-12 degrees.
  *
  * Given:    sca              1..n_sca
- *           x, y             on the detector or within 4096 pixels of it
+ *           x, y             on the detector or within 8192 pixels of it
  *           ra_deg, dec_deg  the place
  *           pa_deg, options  as for wfpsf_observation_create()
  * Status:   those of wfpsf_observation_create(); ERROR_RANGE also if no such pointing was found, as
