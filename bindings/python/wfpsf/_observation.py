@@ -13,7 +13,7 @@ from ._options import chosen
 from ._status import check
 
 KEYS = constants_of("WFPSF_OBSERVATION_")
-TAKEN = ("wcs_rule", "pa_of_fpa")
+OBSERVATION_OPTIONS = ("wcs_rule", "pa_of_fpa")
 
 Pixel = collections.namedtuple("Pixel", "x y")
 Sky = collections.namedtuple("Sky", "ra_deg dec_deg")
@@ -48,21 +48,21 @@ class Observation(Handle):
     _destroy = "wfpsf_observation_destroy"
 
     def __init__(self, instrument, ra_deg, dec_deg, pa_deg, **options):
-        with chosen(TAKEN, options) as handle:
+        with chosen(OBSERVATION_OPTIONS, options) as handle:
             self._make(lambda out: lib.wfpsf_observation_create(
                 instrument, ra_deg, dec_deg, pa_deg, handle, out))
 
     @classmethod
     def on_date(cls, instrument, ra_deg, dec_deg, julian_date, **options):
         """With the best roll of a date (UTC)."""
-        with chosen(TAKEN, options) as handle:
+        with chosen(OBSERVATION_OPTIONS, options) as handle:
             return cls._made(lambda out: lib.wfpsf_observation_create_on_date(
                 instrument, ra_deg, dec_deg, julian_date, handle, out))
 
     @classmethod
     def aimed(cls, instrument, sca, x, y, ra_deg, dec_deg, pa_deg, **options):
         """That which has pixel (x, y) of a detector at a place on the sky."""
-        with chosen(TAKEN, options) as handle:
+        with chosen(OBSERVATION_OPTIONS, options) as handle:
             return cls._made(lambda out: lib.wfpsf_observation_create_aimed(
                 instrument, integer("sca", sca, 32), x, y, ra_deg, dec_deg, pa_deg, handle, out))
 
