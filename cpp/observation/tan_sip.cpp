@@ -77,6 +77,7 @@ WFPSF_VECTORISED int64_t TanSip::to_pixel(int64_t count, const double *ra_deg,
         const double f = inverse[0] * xi + inverse[1] * eta;
         const double g = inverse[2] * xi + inverse[3] * eta;
         double dx = f, dy = g, step = 0;
+#pragma GCC unroll 4
         for (int pass = 0; pass < 4; ++pass) {
             const Distorted p = distorted(a, dx, dx, dy), q = distorted(b, dy, dx, dy);
             const double p_x = 1 + p.by_x, q_y = 1 + q.by_y;
