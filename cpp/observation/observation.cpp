@@ -133,7 +133,7 @@ Observation Observation::aimed(const Instrument &instrument, int sca, double x, 
     const Vector wanted = direction(target);
     SkyPosition pointing = target;
     for (int pass = 0; pass < most_passes; ++pass) {
-        const Observation observation(instrument, pointing, pa_deg, options);
+        Observation observation(instrument, pointing, pa_deg, options);
         SkyPosition seen{};
         if (observation.wcs(sca).to_sky(1, &x, &y, &seen.ra_deg, &seen.dec_deg) != 0)
             fail(WFPSF_ERROR_RANGE, "x = %g, y = %g: must be on the detector or within %g pixels",

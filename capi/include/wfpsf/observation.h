@@ -13,7 +13,7 @@
  * beyond the detector's edges.
  *
  * By default the distortion inside a detector is that of the field. The tables of GalSim's
- * simulators leave it out, which moves positions by up to 19 pixels at a detector's corners;
+ * simulators leave it out, which moves positions by up to 26 pixels at a detector's corners;
  * WFPSF_OPTION_WCS_RULE = 1 reproduces them.
  *
  * Functions that take many positions do not fail over one of them: a position that has no answer
