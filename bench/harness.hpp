@@ -38,5 +38,6 @@ std::vector<Case> transform_cases();
 std::vector<Case> ipc_cases();
 std::vector<Case> moments_cases();
 std::vector<Case> study_cases();
+std::vector<Case> observation_cases();
 
 } // namespace wfpsf::bench

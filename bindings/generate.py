@@ -18,7 +18,7 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent
 HEADERS = ROOT / "capi/include/wfpsf"
 ORDER = ("version.h.in", "status.h", "options.h", "image.h", "instrument.h", "design.h", "sed.h",
-         "psf.h", "varying_psf.h", "otf.h", "ipc.h", "varying_ipc.h", "chain.h", "sky.h", "moments.h", "size.h",
+         "psf.h", "varying_psf.h", "otf.h", "ipc.h", "varying_ipc.h", "chain.h", "sky.h", "observation.h", "moments.h", "size.h",
          "study.h")
 WITHOUT_NAMES = {"export.h", "wfpsf.h"}
 WIDTH = 100
@@ -99,10 +99,10 @@ def arguments(text, documentation, callback_types):
         kind = c_type(type_text)
         if kind in callback_types:
             kind = CALLBACK
-        # Numbers come as arrays when const, or when their count was given before; handles, when the
-        # documentation says "count handles".
+        # Numbers come as arrays when const, or when their count was given before; handles and
+        # integers, when the documentation says "count handles" or "count integers".
         is_array = (kind == "const double*" or (kind == "double*" and count_given)
-                    or bool(re.search(rf"\b{name}\s+count handles", documentation)))
+                    or bool(re.search(rf"\b{name}\s+count (handles|integers)", documentation)))
         result.append(Argument(kind, name, is_array))
         count_given = count_given or name in ("count", "capacity")
     return result

@@ -10,6 +10,7 @@
 #include "moments/adaptive.hpp"
 #include "moments/covariance.hpp"
 #include "moments/pixel_moments.hpp"
+#include "observation/observation.hpp"
 #include "optics/otf.hpp"
 #include "optics/psf.hpp"
 #include "optics/varying_psf.hpp"
@@ -32,6 +33,10 @@ struct wfpsf_image {
 struct wfpsf_instrument {
     std::shared_ptr<const wfpsf::Instrument> owned; // none if it is compiled in
     const wfpsf::Instrument &instrument;
+};
+
+struct wfpsf_observation {
+    wfpsf::Observation observation;
 };
 
 struct wfpsf_sed {

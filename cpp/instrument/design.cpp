@@ -185,7 +185,8 @@ std::shared_ptr<const Instrument> Design::instrument() const {
                          .all_field_points = built->field_points,
                          .pupils = {&built->pupil, 1},
                          .ipc_kernel = {},
-                         .pixels = pixels_};
+                         .pixels = pixels_,
+                         .wcs = {}};
     return {built, &built->instrument};
 }
 

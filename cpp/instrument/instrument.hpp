@@ -5,6 +5,7 @@
 
 #include "instrument/band.hpp"
 #include "instrument/pupil.hpp"
+#include "instrument/wcs.hpp"
 
 #include <array>
 #include <cstdint>
@@ -54,6 +55,7 @@ struct Instrument {
     std::span<const Pupil> pupils;                // by mask, then by SCA; or one that serves all
     std::optional<IpcTaps> ipc_kernel;            // the detectors' nominal one, if there is one
     PixelCounts pixels;                           // of every detector
+    std::optional<WcsTables> wcs;                 // if the detectors have places on the sky
 
     // An unknown name of an instrument, constant or band: WFPSF_ERROR_UNKNOWN_NAME. An SCA that
     // does not exist: WFPSF_ERROR_RANGE.

@@ -28,6 +28,8 @@ static const struct pinned pinned[] = {
     {"WFPSF_ERROR_KERNEL", -100},
     {"WFPSF_ERROR_KERNEL_SINGULAR", -110},
     {"WFPSF_ERROR_SKY_SUN", -120},
+    {"WFPSF_ERROR_SUN_ANGLE", -130},
+    {"WFPSF_ERROR_NO_WCS", -140},
     {"WFPSF_ERROR_FILE_OPEN", -200},
     {"WFPSF_ERROR_FILE_FORMAT", -210},
     {"WFPSF_ERROR_FILE_WRITE", -220},

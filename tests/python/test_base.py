@@ -15,7 +15,7 @@ import warnings
 import numpy as np
 import wfpsf
 from support import gaussian, status_of
-from wfpsf import _chain, _ipc, _moments, _psf, _size, _study
+from wfpsf import _chain, _ipc, _moments, _observation, _psf, _size, _study
 
 
 def load_tests(loader, tests, pattern):
@@ -171,8 +171,8 @@ class Options(unittest.TestCase):
         # Every option is taken by some function, and no function takes an unknown one.
         taken = {*_psf.PSF_OPTIONS, *_psf.STAR_OPTIONS, *_psf.DRAW_OPTIONS, *_ipc.APPLY_OPTIONS,
                  *_ipc.CORRECT_OPTIONS, *_chain.CHAIN_OPTIONS, *_moments.MOMENTS_OPTIONS,
-                 *_size.SIZE_OPTIONS, *_study.STUDY_OPTIONS, "kernel_negative", "kernel_normalise",
-                 "fits_overwrite"}
+                 *_size.SIZE_OPTIONS, *_study.STUDY_OPTIONS, *_observation.OBSERVATION_OPTIONS,
+                 "kernel_negative", "kernel_normalise", "fits_overwrite"}
         self.assertEqual(taken, {*known, "zernikes", "opd", "progress"})
 
     def test_values(self):

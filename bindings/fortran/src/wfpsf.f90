@@ -105,6 +105,24 @@ module wfpsf
         final :: image_finalize
     end type wfpsf_image
 
+    ! A telescope that points somewhere, and where its detectors then are on the sky. Degrees; RA and
+    ! Dec in the ICRS, position angles east of north.
+    type, extends(handle) :: wfpsf_observation
+    contains
+        procedure :: create => observation_create
+        procedure :: create_on_date => observation_create_on_date
+        procedure :: create_aimed => observation_create_aimed
+        procedure :: destroy => observation_destroy
+        procedure :: get => observation_get
+        procedure :: sky_to_pixel => observation_sky_to_pixel
+        procedure :: pixel_to_sky => observation_pixel_to_sky
+        procedure :: find_sca => observation_find_sca
+        procedure :: get_bounds => observation_get_bounds
+        procedure :: jacobian => observation_jacobian
+        procedure :: fits_header => observation_fits_header
+        final :: observation_finalize
+    end type wfpsf_observation
+
     ! A spectral energy distribution: how light is spread over wavelength, up to a factor.
     type, extends(handle) :: wfpsf_sed
     contains
@@ -781,6 +799,173 @@ module wfpsf
         impure elemental module subroutine image_finalize(self)
             type(wfpsf_image), intent(inout) :: self
         end subroutine image_finalize
+    end interface
+
+    ! Observations. Positions without an answer give NaN and are counted in undefined. The arrays of a
+    ! call have one size.
+    private :: observation_create, observation_create_on_date, observation_create_aimed
+    private :: observation_destroy, observation_get, observation_sky_to_pixel
+    private :: observation_pixel_to_sky, observation_find_sca, observation_get_bounds
+    private :: observation_jacobian, observation_fits_header, observation_finalize
+    interface
+        ! pa_deg: of the observatory's +Y axis, or with wfpsf_option_pa_of_fpa of the focal plane.
+        module subroutine observation_create(self, instrument, ra_deg, dec_deg, pa_deg, options, &
+            stat, errmsg)
+            class(wfpsf_observation), intent(inout) :: self
+            type(wfpsf_instrument), intent(in) :: instrument
+            real(real64), intent(in) :: ra_deg, dec_deg, pa_deg
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine observation_create
+
+        ! With the best roll of the date (UTC).
+        module subroutine observation_create_on_date(self, instrument, ra_deg, dec_deg, &
+            julian_date, options, stat, errmsg)
+            class(wfpsf_observation), intent(inout) :: self
+            type(wfpsf_instrument), intent(in) :: instrument
+            real(real64), intent(in) :: ra_deg, dec_deg, julian_date
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine observation_create_on_date
+
+        ! That which has pixel (x, y) of a detector at a place on the sky.
+        module subroutine observation_create_aimed(self, instrument, sca, x, y, ra_deg, dec_deg, &
+            pa_deg, options, stat, errmsg)
+            class(wfpsf_observation), intent(inout) :: self
+            type(wfpsf_instrument), intent(in) :: instrument
+            integer, intent(in) :: sca
+            real(real64), intent(in) :: x, y, ra_deg, dec_deg, pa_deg
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine observation_create_aimed
+
+        module subroutine observation_destroy(self)
+            class(wfpsf_observation), intent(inout) :: self
+        end subroutine observation_destroy
+
+        ! key: wfpsf_observation_*.
+        module subroutine observation_get(self, sca, key, value, stat, errmsg)
+            class(wfpsf_observation), intent(in) :: self
+            integer, intent(in) :: sca, key
+            real(real64), intent(inout) :: value
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine observation_get
+
+        module subroutine observation_sky_to_pixel(self, sca, ra_deg, dec_deg, x, y, undefined, &
+            stat, errmsg)
+            class(wfpsf_observation), intent(in) :: self
+            integer, intent(in) :: sca
+            real(real64), intent(in), contiguous :: ra_deg(:), dec_deg(:)
+            real(real64), intent(inout), contiguous :: x(:), y(:)
+            integer(int64), intent(out), optional :: undefined
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine observation_sky_to_pixel
+
+        module subroutine observation_pixel_to_sky(self, sca, x, y, ra_deg, dec_deg, undefined, &
+            stat, errmsg)
+            class(wfpsf_observation), intent(in) :: self
+            integer, intent(in) :: sca
+            real(real64), intent(in), contiguous :: x(:), y(:)
+            real(real64), intent(inout), contiguous :: ra_deg(:), dec_deg(:)
+            integer(int64), intent(out), optional :: undefined
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine observation_pixel_to_sky
+
+        ! sca: 0 where a position falls on no detector; x and y are NaN there.
+        module subroutine observation_find_sca(self, with_gaps, ra_deg, dec_deg, sca, x, y, &
+            stat, errmsg)
+            class(wfpsf_observation), intent(in) :: self
+            logical, intent(in) :: with_gaps
+            real(real64), intent(in), contiguous :: ra_deg(:), dec_deg(:)
+            integer(c_int32_t), intent(inout), contiguous :: sca(:)
+            real(real64), intent(inout), contiguous :: x(:), y(:)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine observation_find_sca
+
+        ! First and last pixels, the active ones being 1 to n_pix.
+        module subroutine observation_get_bounds(self, sca, with_gaps, x_first, x_last, y_first, &
+            y_last, stat, errmsg)
+            class(wfpsf_observation), intent(in) :: self
+            integer, intent(in) :: sca
+            logical, intent(in) :: with_gaps
+            integer(int64), intent(out) :: x_first, x_last, y_first, y_last
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine observation_get_bounds
+
+        ! jacobian(2, 2, n): of each position the changes by x and by y, first to the east, then to the
+        ! north: jacobian(1, 2, i) is that to the north by x; arcsec per pixel. pixel_area: arcsec**2.
+        module subroutine observation_jacobian(self, sca, x, y, jacobian, pixel_area, &
+            y_angle_deg, undefined, stat, errmsg)
+            class(wfpsf_observation), intent(in) :: self
+            integer, intent(in) :: sca
+            real(real64), intent(in), contiguous :: x(:), y(:)
+            real(real64), intent(inout), contiguous :: jacobian(:, :, :), pixel_area(:), y_angle_deg(:)
+            integer(int64), intent(out), optional :: undefined
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine observation_jacobian
+
+        ! WCS keywords: cards of 80 characters one after another, no END.
+        module subroutine observation_fits_header(self, sca, text, stat, errmsg)
+            class(wfpsf_observation), intent(in) :: self
+            integer, intent(in) :: sca
+            character(len=:), allocatable, intent(out) :: text
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine observation_fits_header
+
+        impure elemental module subroutine observation_finalize(self)
+            type(wfpsf_observation), intent(inout) :: self
+        end subroutine observation_finalize
+    end interface
+
+    ! The Sun and what it allows. Dates are Julian, UTC.
+    interface
+        module subroutine wfpsf_get_julian_date(year, month, day, hour, minute, second, julian_date, &
+            stat, errmsg)
+            integer, intent(in) :: year, month, day, hour, minute
+            real(real64), intent(in) :: second
+            real(real64), intent(inout) :: julian_date
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine wfpsf_get_julian_date
+
+        module subroutine wfpsf_get_sun_position(julian_date, ra_deg, dec_deg, options, stat, errmsg)
+            real(real64), intent(in) :: julian_date
+            real(real64), intent(inout) :: ra_deg, dec_deg
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine wfpsf_get_sun_position
+
+        module subroutine wfpsf_check_pointing(instrument, ra_deg, dec_deg, julian_date, &
+            sun_angle_deg, allowed, options, stat, errmsg)
+            type(wfpsf_instrument), intent(in) :: instrument
+            real(real64), intent(in) :: ra_deg, dec_deg, julian_date
+            real(real64), intent(inout) :: sun_angle_deg
+            logical, intent(out) :: allowed
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine wfpsf_check_pointing
+
+        module subroutine wfpsf_get_best_pa(instrument, ra_deg, dec_deg, julian_date, pa_deg, &
+            options, stat, errmsg)
+            type(wfpsf_instrument), intent(in) :: instrument
+            real(real64), intent(in) :: ra_deg, dec_deg, julian_date
+            real(real64), intent(inout) :: pa_deg
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine wfpsf_get_best_pa
     end interface
 
     ! SEDs.

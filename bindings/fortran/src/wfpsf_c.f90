@@ -34,6 +34,8 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_error_kernel = -100
     integer(c_int32_t), parameter :: wfpsf_error_kernel_singular = -110
     integer(c_int32_t), parameter :: wfpsf_error_sky_sun = -120
+    integer(c_int32_t), parameter :: wfpsf_error_sun_angle = -130
+    integer(c_int32_t), parameter :: wfpsf_error_no_wcs = -140
     integer(c_int32_t), parameter :: wfpsf_error_file_open = -200
     integer(c_int32_t), parameter :: wfpsf_error_file_format = -210
     integer(c_int32_t), parameter :: wfpsf_error_file_write = -220
@@ -92,6 +94,8 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_option_origin_x = 720
     integer(c_int32_t), parameter :: wfpsf_option_origin_y = 730
     integer(c_int32_t), parameter :: wfpsf_option_noise = 740
+    integer(c_int32_t), parameter :: wfpsf_option_wcs_rule = 800
+    integer(c_int32_t), parameter :: wfpsf_option_pa_of_fpa = 810
     integer(c_int32_t), parameter :: wfpsf_option_real = 1
     integer(c_int32_t), parameter :: wfpsf_option_integer = 2
 
@@ -202,6 +206,21 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_step_saturation = 140
     integer(c_int32_t), parameter :: wfpsf_step_gain = 150
     integer(c_int32_t), parameter :: wfpsf_step_pixel_mask = 160
+
+    ! observation.h
+    integer(c_int32_t), parameter :: wfpsf_observation_ra = 10
+    integer(c_int32_t), parameter :: wfpsf_observation_dec = 20
+    integer(c_int32_t), parameter :: wfpsf_observation_pa = 30
+    integer(c_int32_t), parameter :: wfpsf_observation_pa_fpa = 40
+    integer(c_int32_t), parameter :: wfpsf_observation_crpix1 = 100
+    integer(c_int32_t), parameter :: wfpsf_observation_crpix2 = 110
+    integer(c_int32_t), parameter :: wfpsf_observation_crval1 = 120
+    integer(c_int32_t), parameter :: wfpsf_observation_crval2 = 130
+    integer(c_int32_t), parameter :: wfpsf_observation_cd1_1 = 140
+    integer(c_int32_t), parameter :: wfpsf_observation_cd1_2 = 150
+    integer(c_int32_t), parameter :: wfpsf_observation_cd2_1 = 160
+    integer(c_int32_t), parameter :: wfpsf_observation_cd2_2 = 170
+    integer(c_int32_t), parameter :: wfpsf_observation_orientat = 180
 
     ! moments.h
     integer(c_int32_t), parameter :: wfpsf_moments_centroid_x = 10
@@ -1504,6 +1523,206 @@ module wfpsf_c
             real(c_double), intent(inout), optional :: electrons
             integer(c_int32_t) :: outcome
         end function wfpsf_sky_background
+
+        ! observation.h
+        function wfpsf_observation_create(instrument, ra_deg, dec_deg, pa_deg, options, out) &
+            bind(c, name="wfpsf_observation_create") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            real(c_double), value :: ra_deg
+            real(c_double), value :: dec_deg
+            real(c_double), value :: pa_deg
+            type(c_ptr), value :: options
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_observation_create
+
+        function wfpsf_observation_create_on_date(instrument, ra_deg, dec_deg, julian_date, &
+            options, out) bind(c, name="wfpsf_observation_create_on_date") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            real(c_double), value :: ra_deg
+            real(c_double), value :: dec_deg
+            real(c_double), value :: julian_date
+            type(c_ptr), value :: options
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_observation_create_on_date
+
+        function wfpsf_observation_create_aimed(instrument, sca, x, y, ra_deg, dec_deg, pa_deg, &
+            options, out) bind(c, name="wfpsf_observation_create_aimed") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            integer(c_int32_t), value :: sca
+            real(c_double), value :: x
+            real(c_double), value :: y
+            real(c_double), value :: ra_deg
+            real(c_double), value :: dec_deg
+            real(c_double), value :: pa_deg
+            type(c_ptr), value :: options
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_observation_create_aimed
+
+        subroutine wfpsf_observation_destroy(observation) bind(c, name="wfpsf_observation_destroy")
+            import :: c_ptr
+            implicit none
+            type(c_ptr), value :: observation
+        end subroutine wfpsf_observation_destroy
+
+        function wfpsf_observation_get(observation, sca, key, value) &
+            bind(c, name="wfpsf_observation_get") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: observation
+            integer(c_int32_t), value :: sca
+            integer(c_int32_t), value :: key
+            real(c_double), intent(inout), optional :: value
+            integer(c_int32_t) :: outcome
+        end function wfpsf_observation_get
+
+        function wfpsf_observation_sky_to_pixel(observation, sca, count, ra_deg, dec_deg, x, y, &
+            undefined) bind(c, name="wfpsf_observation_sky_to_pixel") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: observation
+            integer(c_int32_t), value :: sca
+            integer(c_int64_t), value :: count
+            real(c_double), intent(in), optional :: ra_deg(*)
+            real(c_double), intent(in), optional :: dec_deg(*)
+            real(c_double), intent(inout), optional :: x(*)
+            real(c_double), intent(inout), optional :: y(*)
+            integer(c_int64_t), intent(inout), optional :: undefined
+            integer(c_int32_t) :: outcome
+        end function wfpsf_observation_sky_to_pixel
+
+        function wfpsf_observation_pixel_to_sky(observation, sca, count, x, y, ra_deg, dec_deg, &
+            undefined) bind(c, name="wfpsf_observation_pixel_to_sky") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: observation
+            integer(c_int32_t), value :: sca
+            integer(c_int64_t), value :: count
+            real(c_double), intent(in), optional :: x(*)
+            real(c_double), intent(in), optional :: y(*)
+            real(c_double), intent(inout), optional :: ra_deg(*)
+            real(c_double), intent(inout), optional :: dec_deg(*)
+            integer(c_int64_t), intent(inout), optional :: undefined
+            integer(c_int32_t) :: outcome
+        end function wfpsf_observation_pixel_to_sky
+
+        function wfpsf_observation_find_sca(observation, with_gaps, count, ra_deg, dec_deg, sca, &
+            x, y, found) bind(c, name="wfpsf_observation_find_sca") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: observation
+            integer(c_int32_t), value :: with_gaps
+            integer(c_int64_t), value :: count
+            real(c_double), intent(in), optional :: ra_deg(*)
+            real(c_double), intent(in), optional :: dec_deg(*)
+            integer(c_int32_t), intent(inout), optional :: sca(*)
+            real(c_double), intent(inout), optional :: x(*)
+            real(c_double), intent(inout), optional :: y(*)
+            integer(c_int64_t), intent(inout), optional :: found
+            integer(c_int32_t) :: outcome
+        end function wfpsf_observation_find_sca
+
+        function wfpsf_observation_bounds(observation, sca, with_gaps, x_first, x_last, y_first, &
+            y_last) bind(c, name="wfpsf_observation_bounds") result(outcome)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: observation
+            integer(c_int32_t), value :: sca
+            integer(c_int32_t), value :: with_gaps
+            integer(c_int64_t), intent(inout), optional :: x_first
+            integer(c_int64_t), intent(inout), optional :: x_last
+            integer(c_int64_t), intent(inout), optional :: y_first
+            integer(c_int64_t), intent(inout), optional :: y_last
+            integer(c_int32_t) :: outcome
+        end function wfpsf_observation_bounds
+
+        function wfpsf_observation_jacobian(observation, sca, count, x, y, jacobian, pixel_area, &
+            y_angle_deg, undefined) bind(c, name="wfpsf_observation_jacobian") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: observation
+            integer(c_int32_t), value :: sca
+            integer(c_int64_t), value :: count
+            real(c_double), intent(in), optional :: x(*)
+            real(c_double), intent(in), optional :: y(*)
+            real(c_double), intent(inout), optional :: jacobian(*)
+            real(c_double), intent(inout), optional :: pixel_area(*)
+            real(c_double), intent(inout), optional :: y_angle_deg(*)
+            integer(c_int64_t), intent(inout), optional :: undefined
+            integer(c_int32_t) :: outcome
+        end function wfpsf_observation_jacobian
+
+        function wfpsf_observation_fits_header(observation, sca, capacity, text, length) &
+            bind(c, name="wfpsf_observation_fits_header") result(outcome)
+            import :: c_char, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: observation
+            integer(c_int32_t), value :: sca
+            integer(c_int64_t), value :: capacity
+            character(kind=c_char), intent(inout), optional :: text(*)
+            integer(c_int64_t), intent(inout), optional :: length
+            integer(c_int32_t) :: outcome
+        end function wfpsf_observation_fits_header
+
+        function wfpsf_julian_date(year, month, day, hour, minute, second, julian_date) &
+            bind(c, name="wfpsf_julian_date") result(outcome)
+            import :: c_double, c_int32_t
+            implicit none
+            integer(c_int32_t), value :: year
+            integer(c_int32_t), value :: month
+            integer(c_int32_t), value :: day
+            integer(c_int32_t), value :: hour
+            integer(c_int32_t), value :: minute
+            real(c_double), value :: second
+            real(c_double), intent(inout), optional :: julian_date
+            integer(c_int32_t) :: outcome
+        end function wfpsf_julian_date
+
+        function wfpsf_sun_position(julian_date, options, ra_deg, dec_deg) &
+            bind(c, name="wfpsf_sun_position") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            real(c_double), value :: julian_date
+            type(c_ptr), value :: options
+            real(c_double), intent(inout), optional :: ra_deg
+            real(c_double), intent(inout), optional :: dec_deg
+            integer(c_int32_t) :: outcome
+        end function wfpsf_sun_position
+
+        function wfpsf_pointing_allowed(instrument, ra_deg, dec_deg, julian_date, options, &
+            sun_angle_deg, allowed) bind(c, name="wfpsf_pointing_allowed") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            real(c_double), value :: ra_deg
+            real(c_double), value :: dec_deg
+            real(c_double), value :: julian_date
+            type(c_ptr), value :: options
+            real(c_double), intent(inout), optional :: sun_angle_deg
+            integer(c_int32_t), intent(inout), optional :: allowed
+            integer(c_int32_t) :: outcome
+        end function wfpsf_pointing_allowed
+
+        function wfpsf_pointing_best_pa(instrument, ra_deg, dec_deg, julian_date, options, pa_deg) &
+            bind(c, name="wfpsf_pointing_best_pa") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            real(c_double), value :: ra_deg
+            real(c_double), value :: dec_deg
+            real(c_double), value :: julian_date
+            type(c_ptr), value :: options
+            real(c_double), intent(inout), optional :: pa_deg
+            integer(c_int32_t) :: outcome
+        end function wfpsf_pointing_best_pa
 
         ! moments.h
         function wfpsf_moments_measure(image, options, out) &

@@ -39,6 +39,7 @@ products = [LibraryProduct("libwfpsf", :libwfpsf)]
 dependencies = [
     Dependency("FFTW_jll"),
     Dependency("CFITSIO_jll"),
+    Dependency("ERFA_jll"),
     Dependency("Zlib_jll"),
     BuildDependency("Eigen_jll"),
 ]

@@ -50,6 +50,8 @@ const WFPSF_ERROR_ALREADY_APPLIED = Int32(-90)
 const WFPSF_ERROR_KERNEL = Int32(-100)
 const WFPSF_ERROR_KERNEL_SINGULAR = Int32(-110)
 const WFPSF_ERROR_SKY_SUN = Int32(-120)
+const WFPSF_ERROR_SUN_ANGLE = Int32(-130)
+const WFPSF_ERROR_NO_WCS = Int32(-140)
 const WFPSF_ERROR_FILE_OPEN = Int32(-200)
 const WFPSF_ERROR_FILE_FORMAT = Int32(-210)
 const WFPSF_ERROR_FILE_WRITE = Int32(-220)
@@ -126,6 +128,8 @@ const WFPSF_OPTION_STREAM = Int32(710)
 const WFPSF_OPTION_ORIGIN_X = Int32(720)
 const WFPSF_OPTION_ORIGIN_Y = Int32(730)
 const WFPSF_OPTION_NOISE = Int32(740)
+const WFPSF_OPTION_WCS_RULE = Int32(800)
+const WFPSF_OPTION_PA_OF_FPA = Int32(810)
 const WFPSF_OPTION_REAL = Int32(1)
 const WFPSF_OPTION_INTEGER = Int32(2)
 
@@ -957,6 +961,128 @@ function wfpsf_sky_background(instrument, band, longitude, latitude, exposure_ti
         instrument, band, longitude, latitude, exposure_time, pixel_area, electrons)
 end
 
+# observation.h
+const WFPSF_OBSERVATION_RA = Int32(10)
+const WFPSF_OBSERVATION_DEC = Int32(20)
+const WFPSF_OBSERVATION_PA = Int32(30)
+const WFPSF_OBSERVATION_PA_FPA = Int32(40)
+const WFPSF_OBSERVATION_CRPIX1 = Int32(100)
+const WFPSF_OBSERVATION_CRPIX2 = Int32(110)
+const WFPSF_OBSERVATION_CRVAL1 = Int32(120)
+const WFPSF_OBSERVATION_CRVAL2 = Int32(130)
+const WFPSF_OBSERVATION_CD1_1 = Int32(140)
+const WFPSF_OBSERVATION_CD1_2 = Int32(150)
+const WFPSF_OBSERVATION_CD2_1 = Int32(160)
+const WFPSF_OBSERVATION_CD2_2 = Int32(170)
+const WFPSF_OBSERVATION_ORIENTAT = Int32(180)
+
+const wfpsf_observation_create_pointer = Ref(C_NULL)
+function wfpsf_observation_create(instrument, ra_deg, dec_deg, pa_deg, options, out)
+    return ccall(wfpsf_observation_create_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64, Float64,
+        Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        instrument, ra_deg, dec_deg, pa_deg, options, out)
+end
+
+const wfpsf_observation_create_on_date_pointer = Ref(C_NULL)
+function wfpsf_observation_create_on_date(instrument, ra_deg, dec_deg, julian_date, options, out)
+    return ccall(wfpsf_observation_create_on_date_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64,
+        Float64, Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        instrument, ra_deg, dec_deg, julian_date, options, out)
+end
+
+const wfpsf_observation_create_aimed_pointer = Ref(C_NULL)
+function wfpsf_observation_create_aimed(instrument, sca, x, y, ra_deg, dec_deg, pa_deg, options,
+    out)
+    return ccall(wfpsf_observation_create_aimed_pointer[], Int32, (Ptr{Cvoid}, Int32, Float64,
+        Float64, Float64, Float64, Float64, Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        instrument, sca, x, y, ra_deg, dec_deg, pa_deg, options, out)
+end
+
+const wfpsf_observation_destroy_pointer = Ref(C_NULL)
+function wfpsf_observation_destroy(observation)
+    return ccall(wfpsf_observation_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
+        observation)
+end
+
+const wfpsf_observation_get_pointer = Ref(C_NULL)
+function wfpsf_observation_get(observation, sca, key, value)
+    return ccall(wfpsf_observation_get_pointer[], Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{Float64}),
+        observation, sca, key, value)
+end
+
+const wfpsf_observation_sky_to_pixel_pointer = Ref(C_NULL)
+function wfpsf_observation_sky_to_pixel(observation, sca, count, ra_deg, dec_deg, x, y, undefined)
+    return ccall(wfpsf_observation_sky_to_pixel_pointer[], Int32, (Ptr{Cvoid}, Int32, Int64,
+        Ptr{Float64}, Ptr{Float64}, Ptr{Float64}, Ptr{Float64}, Ptr{Int64}),
+        observation, sca, count, ra_deg, dec_deg, x, y, undefined)
+end
+
+const wfpsf_observation_pixel_to_sky_pointer = Ref(C_NULL)
+function wfpsf_observation_pixel_to_sky(observation, sca, count, x, y, ra_deg, dec_deg, undefined)
+    return ccall(wfpsf_observation_pixel_to_sky_pointer[], Int32, (Ptr{Cvoid}, Int32, Int64,
+        Ptr{Float64}, Ptr{Float64}, Ptr{Float64}, Ptr{Float64}, Ptr{Int64}),
+        observation, sca, count, x, y, ra_deg, dec_deg, undefined)
+end
+
+const wfpsf_observation_find_sca_pointer = Ref(C_NULL)
+function wfpsf_observation_find_sca(observation, with_gaps, count, ra_deg, dec_deg, sca, x, y,
+    found)
+    return ccall(wfpsf_observation_find_sca_pointer[], Int32, (Ptr{Cvoid}, Int32, Int64,
+        Ptr{Float64}, Ptr{Float64}, Ptr{Int32}, Ptr{Float64}, Ptr{Float64}, Ptr{Int64}),
+        observation, with_gaps, count, ra_deg, dec_deg, sca, x, y, found)
+end
+
+const wfpsf_observation_bounds_pointer = Ref(C_NULL)
+function wfpsf_observation_bounds(observation, sca, with_gaps, x_first, x_last, y_first, y_last)
+    return ccall(wfpsf_observation_bounds_pointer[], Int32, (Ptr{Cvoid}, Int32, Int32, Ptr{Int64},
+        Ptr{Int64}, Ptr{Int64}, Ptr{Int64}),
+        observation, sca, with_gaps, x_first, x_last, y_first, y_last)
+end
+
+const wfpsf_observation_jacobian_pointer = Ref(C_NULL)
+function wfpsf_observation_jacobian(observation, sca, count, x, y, jacobian, pixel_area,
+    y_angle_deg, undefined)
+    return ccall(wfpsf_observation_jacobian_pointer[], Int32, (Ptr{Cvoid}, Int32, Int64,
+        Ptr{Float64}, Ptr{Float64}, Ptr{Float64}, Ptr{Float64}, Ptr{Float64}, Ptr{Int64}),
+        observation, sca, count, x, y, jacobian, pixel_area, y_angle_deg, undefined)
+end
+
+const wfpsf_observation_fits_header_pointer = Ref(C_NULL)
+function wfpsf_observation_fits_header(observation, sca, capacity, text, length)
+    return ccall(wfpsf_observation_fits_header_pointer[], Int32, (Ptr{Cvoid}, Int32, Int64,
+        Ptr{UInt8}, Ptr{Int64}),
+        observation, sca, capacity, text, length)
+end
+
+const wfpsf_julian_date_pointer = Ref(C_NULL)
+function wfpsf_julian_date(year, month, day, hour, minute, second, julian_date)
+    return ccall(wfpsf_julian_date_pointer[], Int32, (Int32, Int32, Int32, Int32, Int32, Float64,
+        Ptr{Float64}),
+        year, month, day, hour, minute, second, julian_date)
+end
+
+const wfpsf_sun_position_pointer = Ref(C_NULL)
+function wfpsf_sun_position(julian_date, options, ra_deg, dec_deg)
+    return ccall(wfpsf_sun_position_pointer[], Int32, (Float64, Ptr{Cvoid}, Ptr{Float64},
+        Ptr{Float64}),
+        julian_date, options, ra_deg, dec_deg)
+end
+
+const wfpsf_pointing_allowed_pointer = Ref(C_NULL)
+function wfpsf_pointing_allowed(instrument, ra_deg, dec_deg, julian_date, options, sun_angle_deg,
+    allowed)
+    return ccall(wfpsf_pointing_allowed_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64, Float64,
+        Ptr{Cvoid}, Ptr{Float64}, Ptr{Int32}),
+        instrument, ra_deg, dec_deg, julian_date, options, sun_angle_deg, allowed)
+end
+
+const wfpsf_pointing_best_pa_pointer = Ref(C_NULL)
+function wfpsf_pointing_best_pa(instrument, ra_deg, dec_deg, julian_date, options, pa_deg)
+    return ccall(wfpsf_pointing_best_pa_pointer[], Int32, (Ptr{Cvoid}, Float64, Float64, Float64,
+        Ptr{Cvoid}, Ptr{Float64}),
+        instrument, ra_deg, dec_deg, julian_date, options, pa_deg)
+end
+
 # moments.h
 const WFPSF_MOMENTS_CENTROID_X = Int32(10)
 const WFPSF_MOMENTS_CENTROID_Y = Int32(20)
@@ -1279,6 +1405,21 @@ const pointers = [
     :wfpsf_noise_add => wfpsf_noise_add_pointer,
     :wfpsf_sky_level => wfpsf_sky_level_pointer,
     :wfpsf_sky_background => wfpsf_sky_background_pointer,
+    :wfpsf_observation_create => wfpsf_observation_create_pointer,
+    :wfpsf_observation_create_on_date => wfpsf_observation_create_on_date_pointer,
+    :wfpsf_observation_create_aimed => wfpsf_observation_create_aimed_pointer,
+    :wfpsf_observation_destroy => wfpsf_observation_destroy_pointer,
+    :wfpsf_observation_get => wfpsf_observation_get_pointer,
+    :wfpsf_observation_sky_to_pixel => wfpsf_observation_sky_to_pixel_pointer,
+    :wfpsf_observation_pixel_to_sky => wfpsf_observation_pixel_to_sky_pointer,
+    :wfpsf_observation_find_sca => wfpsf_observation_find_sca_pointer,
+    :wfpsf_observation_bounds => wfpsf_observation_bounds_pointer,
+    :wfpsf_observation_jacobian => wfpsf_observation_jacobian_pointer,
+    :wfpsf_observation_fits_header => wfpsf_observation_fits_header_pointer,
+    :wfpsf_julian_date => wfpsf_julian_date_pointer,
+    :wfpsf_sun_position => wfpsf_sun_position_pointer,
+    :wfpsf_pointing_allowed => wfpsf_pointing_allowed_pointer,
+    :wfpsf_pointing_best_pa => wfpsf_pointing_best_pa_pointer,
     :wfpsf_moments_measure => wfpsf_moments_measure_pointer,
     :wfpsf_moments_measure_masked => wfpsf_moments_measure_masked_pointer,
     :wfpsf_moments_measure_weighted => wfpsf_moments_measure_weighted_pointer,

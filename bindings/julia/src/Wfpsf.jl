@@ -31,6 +31,8 @@ export WfpsfError, options,
     Instrument, constant, constants, band, bands, throughput, zernikes, pupil,
     Image, record, set_record!, read_fits, write_fits,
     interleave, interleave!, deinterleave, deinterleave!,
+    Observation, aimed, on_date, sky_to_pixel, pixel_to_sky, find_sca, sca_bounds, pixel_jacobian,
+    fits_header, julian_date, sun_position, pointing_allowed, best_pa,
     SED, power_law, black_body, redshifted, photon_density,
     PSF, psfs, draw, draw!, add_stars!, add_bright_star!, draw_memory, convolve!,
     VaryingPSF,
@@ -57,6 +59,7 @@ include("instrument.jl")
 include("image.jl")
 include("interleave.jl")
 include("pupil.jl")
+include("observation.jl")
 include("sed.jl")
 include("psf.jl")
 include("varying_psf.jl")

@@ -8,7 +8,7 @@ known = Dict(option.name => option for option in options())
 
 # Every option is taken by some function, and no function takes an unknown one.
 taken = (Wfpsf.PSF_OPTIONS..., Wfpsf.STAR_OPTIONS..., Wfpsf.MOMENTS_OPTIONS..., Wfpsf.SIZE_OPTIONS..., Wfpsf.CORRECT_OPTIONS...,
-         Wfpsf.CHAIN_OPTIONS..., :kernel_negative,
+         Wfpsf.CHAIN_OPTIONS..., Wfpsf.OBSERVATION_OPTIONS..., :kernel_negative,
          :kernel_normalise, :ipc_fill, :fits_overwrite)
 @test issetequal(taken, (keys(known)..., :zernikes, :opd, :progress))
 

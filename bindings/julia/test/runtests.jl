@@ -23,7 +23,7 @@ end
 
 @testset "Wfpsf" begin
     @testset "$subject" for subject in ("handle", "options", "instrument", "design", "image",
-                                        "interleave", "sed", "psf", "colours", "varying_psf",
+                                        "interleave", "observation", "sed", "psf", "colours", "varying_psf",
                                         "otf", "ipc", "varying_ipc", "chain", "moments", "size",
                                         "study", "doctests")
         include("$subject.jl")

@@ -41,6 +41,7 @@ from ._ipc import IPCKernel, VaryingIPC, wfc3_deviations
 from ._library import lib as library
 from ._moments import (Moments, adaptive_moments, moment_sums, moments_covariance,
                        moments_derivative, moments_influence, unweighted_moments, weighted_moments)
+from ._observation import Observation, julian_date, sun_position
 from ._options import options
 from ._otf import OTF
 from ._psf import PSF, psfs
@@ -56,9 +57,10 @@ check(library.wfpsf_abi_check(constants.WFPSF_ABI_NUMBER))
 __version__ = library.wfpsf_version().decode()  # of the loaded library
 
 __all__ = ["OTF", "PSF", "SED", "Chain", "Design", "IPCKernel", "Image", "Instrument", "Moments",
+           "Observation",
            "Study", "VaryingIPC", "VaryingPSF", "WfpsfError", "WfpsfWarning", "adaptive_moments",
            "add_noise", "constants", "deinterleave", "ee_radius", "ee_radius_derivative",
-           "encircled_energy", "fwhm", "interleave", "library", "moment_sums", "moments_covariance",
+           "encircled_energy", "fwhm", "interleave", "julian_date", "library", "moment_sums", "moments_covariance",
            "moments_derivative", "moments_influence", "options", "profile_fwhm", "psfs",
-           "radial_profile", "read_fits", "status_name", "unweighted_moments", "weighted_moments",
+           "radial_profile", "read_fits", "status_name", "sun_position", "unweighted_moments", "weighted_moments",
            "wfc3_deviations", "write_fits", "zeros"]

@@ -18,6 +18,7 @@ BAND_RULES = constants_of("WFPSF_BAND_")
 
 Quantity = collections.namedtuple("Quantity", "value unit")
 Band = collections.namedtuple("Band", "blue_nm red_nm effective_nm")
+Allowed = collections.namedtuple("Allowed", "allowed sun_angle_deg")
 Pupil = collections.namedtuple("Pupil", "mask scale_m axis_x axis_y")
 
 
@@ -106,6 +107,23 @@ class Instrument(Handle):
                                              integer("sca", sca, 32), handle, mask, scale,
                                              axis_x, axis_y))
         return Pupil(mask, scale.value, axis_x.value, axis_y.value)
+
+    def pointing_allowed(self, ra_deg, dec_deg, julian_date, **options):
+        """(allowed, sun_angle_deg): whether the Sun lets the telescope point there. Option:
+        wcs_rule."""
+        angle, allowed = ctypes.c_double(), ctypes.c_int32()
+        with chosen(("wcs_rule",), options) as handle:
+            check(lib.wfpsf_pointing_allowed(self, ra_deg, dec_deg, julian_date, handle, angle,
+                                             allowed))
+        return Allowed(allowed.value == 1, angle.value)
+
+    def best_pa(self, ra_deg, dec_deg, julian_date, **options):
+        """Position angle of the observatory's +Y axis at the best roll, degrees east of north.
+        Option: wcs_rule."""
+        angle = ctypes.c_double()
+        with chosen(("wcs_rule",), options) as handle:
+            check(lib.wfpsf_pointing_best_pa(self, ra_deg, dec_deg, julian_date, handle, angle))
+        return angle.value
 
     def sky_level(self, band, longitude, latitude):
         """Zodiacal light in e-/s/arcsec^2 at ecliptic coordinates in degrees, the longitude from

@@ -40,6 +40,8 @@ WFPSF_ERROR_ALREADY_APPLIED = -90
 WFPSF_ERROR_KERNEL = -100
 WFPSF_ERROR_KERNEL_SINGULAR = -110
 WFPSF_ERROR_SKY_SUN = -120
+WFPSF_ERROR_SUN_ANGLE = -130
+WFPSF_ERROR_NO_WCS = -140
 WFPSF_ERROR_FILE_OPEN = -200
 WFPSF_ERROR_FILE_FORMAT = -210
 WFPSF_ERROR_FILE_WRITE = -220
@@ -98,6 +100,8 @@ WFPSF_OPTION_STREAM = 710
 WFPSF_OPTION_ORIGIN_X = 720
 WFPSF_OPTION_ORIGIN_Y = 730
 WFPSF_OPTION_NOISE = 740
+WFPSF_OPTION_WCS_RULE = 800
+WFPSF_OPTION_PA_OF_FPA = 810
 WFPSF_OPTION_REAL = 1
 WFPSF_OPTION_INTEGER = 2
 
@@ -209,6 +213,21 @@ WFPSF_STEP_SATURATION = 140
 WFPSF_STEP_GAIN = 150
 WFPSF_STEP_PIXEL_MASK = 160
 
+# observation.h
+WFPSF_OBSERVATION_RA = 10
+WFPSF_OBSERVATION_DEC = 20
+WFPSF_OBSERVATION_PA = 30
+WFPSF_OBSERVATION_PA_FPA = 40
+WFPSF_OBSERVATION_CRPIX1 = 100
+WFPSF_OBSERVATION_CRPIX2 = 110
+WFPSF_OBSERVATION_CRVAL1 = 120
+WFPSF_OBSERVATION_CRVAL2 = 130
+WFPSF_OBSERVATION_CD1_1 = 140
+WFPSF_OBSERVATION_CD1_2 = 150
+WFPSF_OBSERVATION_CD2_1 = 160
+WFPSF_OBSERVATION_CD2_2 = 170
+WFPSF_OBSERVATION_ORIENTAT = 180
+
 # moments.h
 WFPSF_MOMENTS_CENTROID_X = 10
 WFPSF_MOMENTS_CENTROID_Y = 20
@@ -268,6 +287,7 @@ wfpsf_otf_p = _handle("wfpsf_otf")
 wfpsf_ipc_kernel_p = _handle("wfpsf_ipc_kernel")
 wfpsf_varying_ipc_p = _handle("wfpsf_varying_ipc")
 wfpsf_chain_p = _handle("wfpsf_chain")
+wfpsf_observation_p = _handle("wfpsf_observation")
 wfpsf_moments_p = _handle("wfpsf_moments")
 wfpsf_study_p = _handle("wfpsf_study")
 
@@ -446,6 +466,34 @@ FUNCTIONS = {
         POINTER(c_double)]),
     "wfpsf_sky_background": (c_int32, [wfpsf_instrument_p, c_char_p, c_double, c_double, c_double,
         c_double, POINTER(c_double)]),
+    "wfpsf_observation_create": (c_int32, [wfpsf_instrument_p, c_double, c_double, c_double,
+        wfpsf_options_p, POINTER(wfpsf_observation_p)]),
+    "wfpsf_observation_create_on_date": (c_int32, [wfpsf_instrument_p, c_double, c_double, c_double,
+        wfpsf_options_p, POINTER(wfpsf_observation_p)]),
+    "wfpsf_observation_create_aimed": (c_int32, [wfpsf_instrument_p, c_int32, c_double, c_double,
+        c_double, c_double, c_double, wfpsf_options_p, POINTER(wfpsf_observation_p)]),
+    "wfpsf_observation_destroy": (None, [wfpsf_observation_p]),
+    "wfpsf_observation_get": (c_int32, [wfpsf_observation_p, c_int32, c_int32, POINTER(c_double)]),
+    "wfpsf_observation_sky_to_pixel": (c_int32, [wfpsf_observation_p, c_int32, c_int64, c_void_p,
+        c_void_p, c_void_p, c_void_p, POINTER(c_int64)]),
+    "wfpsf_observation_pixel_to_sky": (c_int32, [wfpsf_observation_p, c_int32, c_int64, c_void_p,
+        c_void_p, c_void_p, c_void_p, POINTER(c_int64)]),
+    "wfpsf_observation_find_sca": (c_int32, [wfpsf_observation_p, c_int32, c_int64, c_void_p,
+        c_void_p, c_void_p, c_void_p, c_void_p, POINTER(c_int64)]),
+    "wfpsf_observation_bounds": (c_int32, [wfpsf_observation_p, c_int32, c_int32, POINTER(c_int64),
+        POINTER(c_int64), POINTER(c_int64), POINTER(c_int64)]),
+    "wfpsf_observation_jacobian": (c_int32, [wfpsf_observation_p, c_int32, c_int64, c_void_p,
+        c_void_p, c_void_p, c_void_p, c_void_p, POINTER(c_int64)]),
+    "wfpsf_observation_fits_header": (c_int32, [wfpsf_observation_p, c_int32, c_int64, c_char_p,
+        POINTER(c_int64)]),
+    "wfpsf_julian_date": (c_int32, [c_int32, c_int32, c_int32, c_int32, c_int32, c_double,
+        POINTER(c_double)]),
+    "wfpsf_sun_position": (c_int32, [c_double, wfpsf_options_p, POINTER(c_double),
+        POINTER(c_double)]),
+    "wfpsf_pointing_allowed": (c_int32, [wfpsf_instrument_p, c_double, c_double, c_double,
+        wfpsf_options_p, POINTER(c_double), POINTER(c_int32)]),
+    "wfpsf_pointing_best_pa": (c_int32, [wfpsf_instrument_p, c_double, c_double, c_double,
+        wfpsf_options_p, POINTER(c_double)]),
     "wfpsf_moments_measure": (c_int32, [wfpsf_image_p, wfpsf_options_p, POINTER(wfpsf_moments_p)]),
     "wfpsf_moments_measure_masked": (c_int32, [wfpsf_image_p, wfpsf_image_p, wfpsf_image_p,
         wfpsf_options_p, POINTER(wfpsf_moments_p)]),

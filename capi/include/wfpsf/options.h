@@ -100,7 +100,12 @@ enum { WFPSF_OPTION_REAL = 1, WFPSF_OPTION_INTEGER = 2 };
       "column of the detector that an image's first pixel is in")                                  \
     X(ORIGIN_Y, 730, INTEGER, 0, -2147483648, 2147483647,                                          \
       "row of the detector that an image's first pixel is in")                                     \
-    X(NOISE, 740, INTEGER, 1, 0, 1, "0: a chain adds means alone, no Poisson and read noise")
+    X(NOISE, 740, INTEGER, 1, 0, 1, "0: a chain adds means alone, no Poisson and read noise")      \
+    X(WCS_RULE, 800, INTEGER, 0, 0, 1,                                                             \
+      "0: the field's distortion inside each detector, the Sun of the ICRS; 1: as GalSim has "     \
+      "them")                                                                                      \
+    X(PA_OF_FPA, 810, INTEGER, 0, 0, 1,                                                            \
+      "1: position angles that are given are the focal plane's, not the observatory's")
 
 #define WFPSF_OPTION_ENUM(name, key, kind, standard, smallest, largest, text)                      \
     WFPSF_OPTION_##name = (key),

@@ -43,6 +43,8 @@ typedef int32_t wfpsf_status;
     X(ERROR_KERNEL, -100, "the taps do not make an IPC kernel")                                    \
     X(ERROR_KERNEL_SINGULAR, -110, "the IPC kernel comes too close to zero to be undone")          \
     X(ERROR_SKY_SUN, -120, "the Sun is too close for a sky level")                                 \
+    X(ERROR_SUN_ANGLE, -130, "the angle between the Sun and the line of sight is not allowed")     \
+    X(ERROR_NO_WCS, -140, "the instrument's detectors have no places on the sky")                  \
     X(ERROR_FILE_OPEN, -200, "a file cannot be opened")                                            \
     X(ERROR_FILE_FORMAT, -210, "a file does not hold what it should")                              \
     X(ERROR_FILE_WRITE, -220, "a file cannot be written")                                          \

@@ -12,6 +12,7 @@
 #include <wfpsf/instrument.h>
 #include <wfpsf/ipc.h>
 #include <wfpsf/moments.h>
+#include <wfpsf/observation.h>
 #include <wfpsf/options.h>
 #include <wfpsf/otf.h>
 #include <wfpsf/psf.h>

@@ -11,7 +11,8 @@ Instrument instrument() {
             .all_field_points = field_points(),
             .pupils = pupils(),
             .ipc_kernel = nominal_ipc_kernel(),
-            .pixels = {4088, 4088}};
+            .pixels = {4088, 4088},
+            .wcs = wcs()};
 }
 
 } // namespace wfpsf::roman_c9

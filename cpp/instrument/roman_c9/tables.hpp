@@ -15,6 +15,7 @@ std::span<const Band> bands();
 std::span<const FieldPoint> field_points();
 std::span<const SkyCurve> sky();
 DetectorFigures detector();
+WcsTables wcs();
 std::span<const Pupil> pupils(); // by mask, then by SCA
 
 inline constexpr double collecting_area_cm2 = 37570;

@@ -12,7 +12,8 @@ Instrument instrument() {
             .all_field_points = field_points(),
             .pupils = {&common, 1},
             .ipc_kernel = nominal_ipc_kernel(),
-            .pixels = {4088, 4088}};
+            .pixels = {4088, 4088},
+            .wcs = wcs()};
 }
 
 } // namespace wfpsf::wfirst_afta_c5

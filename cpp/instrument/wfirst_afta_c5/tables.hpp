@@ -15,6 +15,7 @@ std::span<const Band> bands();
 std::span<const FieldPoint> field_points();
 std::span<const SkyCurve> sky();
 DetectorFigures detector();
+WcsTables wcs();
 SegmentedPupil pupil();
 
 } // namespace wfpsf::wfirst_afta_c5
