@@ -15,7 +15,7 @@ abidw --no-corpus-path --no-comp-dir-path --no-show-locs --no-elf-needed \
     sed "s| path='[^']*/| path='|; s|filepath='[^']*/|filepath='|" > "$out/wfpsf-$number.abi"
 
 # The headers one after the other, as each needs the ones before it, without comments.
-headers="export status version options image instrument design sed psf varying_psf otf ipc
+headers="export status version options image instrument design observation sed psf varying_psf otf ipc
     varying_ipc chain sky moments size study"
 {
     printf '/* SPDX-License-Identifier: GPL-3.0-or-later */\n'

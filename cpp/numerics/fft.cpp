@@ -25,15 +25,15 @@ int64_t good_fft_length(int64_t n) {
 }
 
 std::mutex &fftw_planner_lock() {
-    // A host may use FFTW too, on another thread: its planner then takes a lock of its own.
-    static auto &lock = *[] {
-        fftw_make_planner_thread_safe();
-        return new std::mutex; // outlives every thread
-    }();
+    static auto &lock = *new std::mutex; // outlives every thread
     return lock;
 }
 
 namespace {
+
+// A host may use FFTW too, on another thread: the planner then takes a lock of its own. As the
+// library is loaded, since a host that is planning while that lock is put in would not hold it.
+[[maybe_unused]] const bool planner_is_thread_safe = (fftw_make_planner_thread_safe(), true);
 
 // Unaligned, so that any buffer will do; an estimate does not touch the data.
 constexpr unsigned flags = FFTW_ESTIMATE | FFTW_UNALIGNED;

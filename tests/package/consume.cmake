@@ -3,10 +3,11 @@ function(run)
   execute_process(COMMAND ${ARGN} COMMAND_ECHO STDOUT COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-# The outputs of programs, which must be one.
+# The outputs of programs, which must be one. Words of a command are parted by |.
 function(run_alike)
   foreach(program ${ARGN})
-    execute_process(COMMAND ${program} ${VERSION} COMMAND_ECHO STDOUT
+    string(REPLACE "|" ";" command ${program})
+    execute_process(COMMAND ${command} ${VERSION} COMMAND_ECHO STDOUT
       OUTPUT_VARIABLE output OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
     message("${output}")
     if(NOT output MATCHES "^sigma = [1-9]")
@@ -45,13 +46,13 @@ function(consume_by_pkgconfig tree build)
   run(${FC} ${CONSUMER}/main.f90 ${wfpsf-fortran_flags} ${loader} -o ${build}/fortran)
   set(ENV{PYTHONPATH} ${tree}/lib/python3/dist-packages)
   if(PYTHON)
-    set(python ${CONSUMER}/main.py)
+    set(python ${PYTHON}|${CONSUMER}/main.py)
   endif()
   # A depot of its own: Julia compiles the package for the place where it stands.
   set(ENV{JULIA_LOAD_PATH} ${tree}/share/wfpsf/julia:@stdlib)
   set(ENV{JULIA_DEPOT_PATH} ${build}/depot:)
   if(JULIA)
-    set(julia ${CONSUMER}/main.jl)
+    set(julia ${JULIA}|--startup-file=no|${CONSUMER}/main.jl)
   endif()
   run_alike(${build}/c ${build}/cpp ${build}/fortran ${python} ${julia})
 endfunction()

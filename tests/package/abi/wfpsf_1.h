@@ -37,6 +37,8 @@ typedef int32_t wfpsf_status;
     X(ERROR_KERNEL, -100, "the taps do not make an IPC kernel") \
     X(ERROR_KERNEL_SINGULAR, -110, "the IPC kernel comes too close to zero to be undone") \
     X(ERROR_SKY_SUN, -120, "the Sun is too close for a sky level") \
+    X(ERROR_SUN_ANGLE, -130, "the angle between the Sun and the line of sight is not allowed") \
+    X(ERROR_NO_WCS, -140, "the instrument's detectors have no places on the sky") \
     X(ERROR_FILE_OPEN, -200, "a file cannot be opened") \
     X(ERROR_FILE_FORMAT, -210, "a file does not hold what it should") \
     X(ERROR_FILE_WRITE, -220, "a file cannot be written") \
@@ -161,7 +163,12 @@ enum { WFPSF_OPTION_REAL = 1, WFPSF_OPTION_INTEGER = 2 };
       "column of the detector that an image's first pixel is in") \
     X(ORIGIN_Y, 730, INTEGER, 0, -2147483648, 2147483647, \
       "row of the detector that an image's first pixel is in") \
-    X(NOISE, 740, INTEGER, 1, 0, 1, "0: a chain adds means alone, no Poisson and read noise")
+    X(NOISE, 740, INTEGER, 1, 0, 1, "0: a chain adds means alone, no Poisson and read noise") \
+    X(WCS_RULE, 800, INTEGER, 0, 0, 1, \
+      "0: the field's distortion inside each detector, the Sun of the ICRS; 1: as GalSim has " \
+      "them") \
+    X(PA_OF_FPA, 810, INTEGER, 0, 0, 1, \
+      "1: position angles that are given are the focal plane's, not the observatory's")
 #define WFPSF_OPTION_ENUM(name,key,kind,standard,smallest,largest,text) \
     WFPSF_OPTION_##name = (key),
 enum { WFPSF_OPTION_LIST(WFPSF_OPTION_ENUM) };
@@ -304,6 +311,84 @@ WFPSF_EXPORT wfpsf_status wfpsf_design_add_band(wfpsf_design *design, const char
                                                 const double *throughput);
 WFPSF_EXPORT wfpsf_status wfpsf_instrument_create_from_design(const wfpsf_design *design,
                                                               wfpsf_instrument **out);
+#ifdef __cplusplus
+}
+#endif
+#endif
+#ifndef WFPSF_OBSERVATION_H
+#define WFPSF_OBSERVATION_H 
+#ifdef __cplusplus
+extern "C" {
+#endif
+typedef struct wfpsf_observation wfpsf_observation;
+enum {
+    WFPSF_OBSERVATION_RA = 10,
+    WFPSF_OBSERVATION_DEC = 20,
+    WFPSF_OBSERVATION_PA = 30,
+    WFPSF_OBSERVATION_PA_FPA = 40,
+    WFPSF_OBSERVATION_CRPIX1 = 100,
+    WFPSF_OBSERVATION_CRPIX2 = 110,
+    WFPSF_OBSERVATION_CRVAL1 = 120,
+    WFPSF_OBSERVATION_CRVAL2 = 130,
+    WFPSF_OBSERVATION_CD1_1 = 140,
+    WFPSF_OBSERVATION_CD1_2 = 150,
+    WFPSF_OBSERVATION_CD2_1 = 160,
+    WFPSF_OBSERVATION_CD2_2 = 170,
+    WFPSF_OBSERVATION_ORIENTAT = 180
+};
+WFPSF_EXPORT wfpsf_status wfpsf_observation_create(const wfpsf_instrument *instrument,
+                                                   double ra_deg, double dec_deg, double pa_deg,
+                                                   const wfpsf_options *options,
+                                                   wfpsf_observation **out);
+WFPSF_EXPORT wfpsf_status wfpsf_observation_create_on_date(const wfpsf_instrument *instrument,
+                                                           double ra_deg, double dec_deg,
+                                                           double julian_date,
+                                                           const wfpsf_options *options,
+                                                           wfpsf_observation **out);
+WFPSF_EXPORT wfpsf_status wfpsf_observation_create_aimed(
+    const wfpsf_instrument *instrument, int32_t sca, double x, double y, double ra_deg,
+    double dec_deg, double pa_deg, const wfpsf_options *options, wfpsf_observation **out);
+WFPSF_EXPORT void wfpsf_observation_destroy(wfpsf_observation *observation);
+WFPSF_EXPORT wfpsf_status wfpsf_observation_get(const wfpsf_observation *observation, int32_t sca,
+                                                int32_t key, double *value);
+WFPSF_EXPORT wfpsf_status wfpsf_observation_sky_to_pixel(const wfpsf_observation *observation,
+                                                         int32_t sca, int64_t count,
+                                                         const double *ra_deg,
+                                                         const double *dec_deg, double *x,
+                                                         double *y, int64_t *undefined);
+WFPSF_EXPORT wfpsf_status wfpsf_observation_pixel_to_sky(const wfpsf_observation *observation,
+                                                         int32_t sca, int64_t count,
+                                                         const double *x, const double *y,
+                                                         double *ra_deg, double *dec_deg,
+                                                         int64_t *undefined);
+WFPSF_EXPORT wfpsf_status wfpsf_observation_find_sca(const wfpsf_observation *observation,
+                                                     int32_t with_gaps, int64_t count,
+                                                     const double *ra_deg, const double *dec_deg,
+                                                     int32_t *sca, double *x, double *y,
+                                                     int64_t *found);
+WFPSF_EXPORT wfpsf_status wfpsf_observation_bounds(const wfpsf_observation *observation,
+                                                   int32_t sca, int32_t with_gaps, int64_t *x_first,
+                                                   int64_t *x_last, int64_t *y_first,
+                                                   int64_t *y_last);
+WFPSF_EXPORT wfpsf_status wfpsf_observation_jacobian(const wfpsf_observation *observation,
+                                                     int32_t sca, int64_t count, const double *x,
+                                                     const double *y, double *jacobian,
+                                                     double *pixel_area, double *y_angle_deg,
+                                                     int64_t *undefined);
+WFPSF_EXPORT wfpsf_status wfpsf_observation_fits_header(const wfpsf_observation *observation,
+                                                        int32_t sca, int64_t capacity, char *text,
+                                                        int64_t *length);
+WFPSF_EXPORT wfpsf_status wfpsf_julian_date(int32_t year, int32_t month, int32_t day, int32_t hour,
+                                            int32_t minute, double second, double *julian_date);
+WFPSF_EXPORT wfpsf_status wfpsf_sun_position(double julian_date, const wfpsf_options *options,
+                                             double *ra_deg, double *dec_deg);
+WFPSF_EXPORT wfpsf_status wfpsf_pointing_allowed(const wfpsf_instrument *instrument, double ra_deg,
+                                                 double dec_deg, double julian_date,
+                                                 const wfpsf_options *options,
+                                                 double *sun_angle_deg, int32_t *allowed);
+WFPSF_EXPORT wfpsf_status wfpsf_pointing_best_pa(const wfpsf_instrument *instrument, double ra_deg,
+                                                 double dec_deg, double julian_date,
+                                                 const wfpsf_options *options, double *pa_deg);
 #ifdef __cplusplus
 }
 #endif

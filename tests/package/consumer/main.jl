@@ -1,4 +1,3 @@
-#!/usr/bin/env -S julia --startup-file=no
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The program of main.c in Julia: positions count from 1, errors are exceptions.
 using Wfpsf

@@ -1,4 +1,3 @@
-#!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The program of main.c in Python: objects free themselves, errors are exceptions."""
 import sys
