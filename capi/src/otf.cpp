@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "funnel.hpp"
-#include "handles.hpp"
+#include "psf_parts.hpp"
 
 #include <complex>
-#include <cstdio>
 #include <numbers>
 #include <variant>
 
@@ -46,12 +44,7 @@ wfpsf_status wfpsf_otf_create(const wfpsf_psf *psf, const wfpsf_options *options
         const double eps = option(options, WFPSF_OPTION_EPS);
         *out = new wfpsf_otf{Otf(psf->psf.components(), settings.pixel_scale, settings.mirrored,
                                  eps, settings.blur, settings.pixel_response)};
-        const double estimate = (*out)->otf.error_estimate();
-        if (estimate <= eps)
-            return WFPSF_OK;
-        char line[128];
-        std::snprintf(line, sizeof line, "EPS = %g: the error estimate is %g", eps, estimate);
-        return record_error(WFPSF_WARNING_NOT_CERTIFIED, line);
+        return certify((*out)->otf.error_estimate(), eps);
     });
 }
 

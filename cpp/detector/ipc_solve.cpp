@@ -126,14 +126,6 @@ void require_margin(const StabilityMargin &margin, double least) {
              margin.value, margin.frequency_x, margin.frequency_y, least);
 }
 
-double largest(View<const double> image) {
-    double most = 0;
-    for (int64_t j = 0; j < image.ny; ++j)
-        for (int64_t i = 0; i < image.nx; ++i)
-            most = std::max(most, std::fabs(image(i, j)));
-    return most;
-}
-
 // scale K + (0 or 1) delta
 Plane<double> scaled(const IpcKernel &kernel, double scale, double delta) {
     Plane<double> taps(kernel.nx(), kernel.ny());
@@ -168,13 +160,13 @@ Solution solve_any(const IpcKernel &kernel, View<const T> in, const Convolution 
             x(i, j) = b(i, j) = finite ? static_cast<double>(in(i, j)) : 0;
             solution.not_finite += finite ? 0 : 1;
         }
-    const double scale = std::max(largest(b), std::numeric_limits<double>::min());
+    const double scale = std::max(largest_magnitude(b), std::numeric_limits<double>::min());
     const auto step = [&](double weight) {
         convolve_and_add(scaled(kernel, -weight, 1).view(), x, how, {b, weight}, x);
     };
     const auto residual = [&] {
         convolve_and_add(scaled(kernel, -1, 0).view(), x, how, {b, 1}, scratch.view());
-        return largest(scratch.view()) / scale;
+        return largest_magnitude(scratch.view()) / scale;
     };
 
     const double tolerance = std::max(limits.tolerance, least_tolerance<T>);
@@ -254,6 +246,14 @@ Solution solve_ipc(const IpcKernel &kernel, View<const float> in, const Convolut
 Solution solve_ipc(const IpcKernel &kernel, View<const double> in, const Convolution &how,
                    const SolveLimits &limits, View<double> out) {
     return solve_any(kernel, in, how, limits, out);
+}
+
+double largest_magnitude(View<const double> image) {
+    double most = 0;
+    for (int64_t y = 0; y < image.ny; ++y)
+        for (int64_t x = 0; x < image.nx; ++x)
+            most = std::max(most, std::fabs(image(x, y)));
+    return most;
 }
 
 } // namespace wfpsf

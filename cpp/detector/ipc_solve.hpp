@@ -43,4 +43,7 @@ Solution solve_ipc(const IpcKernel &kernel, View<const float> in, const Convolut
 Solution solve_ipc(const IpcKernel &kernel, View<const double> in, const Convolution &how,
                    const SolveLimits &limits, View<double> out);
 
+// The largest absolute value of a pixel, which residuals are measured in.
+double largest_magnitude(View<const double> image);
+
 } // namespace wfpsf

@@ -13,18 +13,10 @@ namespace wfpsf {
 
 namespace {
 
-double largest(View<const double> image) {
-    double most = 0;
-    for (int64_t y = 0; y < image.ny; ++y)
-        for (int64_t x = 0; x < image.nx; ++x)
-            most = std::max(most, std::fabs(image(x, y)));
-    return most;
-}
-
 // x with A x = b. It starts from what is in x.
 Iteration solve(const VaryingIpc &ipc, const VaryingConvolution &how, View<const double> b,
                 double tolerance, int64_t most_passes, View<double> x, View<double> scratch) {
-    const double scale = std::max(largest(b), std::numeric_limits<double>::min());
+    const double scale = std::max(largest_magnitude(b), std::numeric_limits<double>::min());
     const auto set_difference = [&] {
         convolve(ipc, View<const double>(x), how, scratch);
         for (int64_t j = 0; j < b.ny; ++j)
@@ -39,7 +31,7 @@ Iteration solve(const VaryingIpc &ipc, const VaryingConvolution &how, View<const
     };
     const auto residual = [&] {
         set_difference();
-        return largest(scratch) / scale;
+        return largest_magnitude(scratch) / scale;
     };
     return solve_by_chebyshev(step, residual, ipc.spectrum(), tolerance, most_passes);
 }
