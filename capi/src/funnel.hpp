@@ -4,10 +4,12 @@
 
 #include "error/error.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <new>
 #include <span>
+#include <string>
 #include <type_traits>
 
 namespace wfpsf {
@@ -54,6 +56,19 @@ std::span<T> array_of(int64_t count, T *first, const char *count_argument, const
     if (count > 0)
         require_pointer(first, argument);
     return {first, static_cast<size_t>(count)};
+}
+
+// A text for a caller's buffer: the first capacity - 1 characters, closed by NUL. The buffer may be
+// NULL if capacity is 0, the length too.
+inline void copy_text(const std::string &from, int64_t capacity, char *text, int64_t *length) {
+    const std::span<char> room = array_of(capacity, text, "capacity", "text");
+    if (!room.empty()) {
+        const size_t copied = std::min(from.size(), room.size() - 1);
+        std::copy_n(from.begin(), copied, room.begin());
+        room[copied] = '\0';
+    }
+    if (length)
+        *length = static_cast<int64_t>(from.size());
 }
 
 } // namespace wfpsf

@@ -14,6 +14,9 @@
 #include "optics/otf.hpp"
 #include "optics/psf.hpp"
 #include "optics/varying_psf.hpp"
+#include "scene/catalogue.hpp"
+#include "scene/plan.hpp"
+#include "scene/render.hpp"
 #include "study/study.hpp"
 
 #include <array>
@@ -90,6 +93,22 @@ struct wfpsf_moments {
     int64_t nx = 0, ny = 0;
 
     std::optional<wfpsf::MomentsCovariance> covariance = {};
+};
+
+struct wfpsf_catalogue {
+    wfpsf::Catalogue catalogue;
+};
+
+struct wfpsf_scene {
+    wfpsf::SceneOptics optics;
+    wfpsf::ScenePlan plan;
+    std::vector<wfpsf::GalaxyShape> shapes;
+    size_t catalogue_size;
+    double pixel_scale_arcsec;
+};
+
+struct wfpsf_rendering {
+    wfpsf::RenderReport report;
 };
 
 struct wfpsf_study {

@@ -226,15 +226,7 @@ wfpsf_status wfpsf_observation_fits_header(const wfpsf_observation *observation,
                                            int64_t capacity, char *text, int64_t *length) {
     return guarded([&] {
         require_pointer(observation, "observation");
-        const auto room = array_of(capacity, text, "capacity", "text");
-        const std::string header = fits_header(observation->observation, sca);
-        if (!room.empty()) {
-            const size_t copied = std::min(header.size(), room.size() - 1);
-            std::copy_n(header.begin(), copied, room.begin());
-            room[copied] = '\0';
-        }
-        if (length)
-            *length = static_cast<int64_t>(header.size());
+        copy_text(fits_header(observation->observation, sca), capacity, text, length);
     });
 }
 

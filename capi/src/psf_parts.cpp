@@ -83,6 +83,33 @@ Light one_colour_in(const Band &band, double wavelength_nm) {
                                          : wavelength_nm);
 }
 
+Light light_of(const Band &band, double wavelength_nm, const Sed *sed) {
+    if (!sed)
+        return one_colour_in(band, wavelength_nm);
+    if (wavelength_nm != 0)
+        fail(WFPSF_ERROR_ARGUMENT, "wavelength_nm = %g: must be 0 with an SED", wavelength_nm);
+    return detected_light(band, *sed);
+}
+
+DetectorOptics detector_optics(const wfpsf_instrument &instrument, const char *band, int32_t sca,
+                               const wfpsf_options *options) {
+    constexpr double margin = Instrument::field_margin_pix;
+    const Instrument &i = instrument.instrument;
+    const bool varies = i.field_points(sca).size() > 1;
+    const std::shared_ptr<const Aperture> aperture = make_aperture_of(i, sca, band, options);
+    const auto at = [owner = instrument, aperture, sca, rule = field_rule(options),
+                     added = AddedAberrations(options),
+                     wavelength = i.reference_wavelength_nm() * 1e-9](double x, double y) {
+        const Instrument &its = owner.instrument;
+        return Optics{aperture, make_wavefront(its, its.zernikes(sca, x, y, rule), added),
+                      wavelength};
+    };
+    return {at,
+            varies,
+            {-margin, -margin, static_cast<double>(i.pixels.x - 1) + margin,
+             static_cast<double>(i.pixels.y - 1) + margin}};
+}
+
 wfpsf_status certify(double estimate, double eps) {
     if (estimate <= eps)
         return WFPSF_OK;

@@ -32,6 +32,19 @@ Light one_colour(double wavelength_nm);
 // wavelength_nm = 0: the band's effective wavelength.
 Light one_colour_in(const Band &band, double wavelength_nm);
 
+// One colour, or an SED seen through the band; wavelength_nm must be 0 then.
+Light light_of(const Band &band, double wavelength_nm, const Sed *sed);
+
+// The optics at any place of a detector and the region that has them; copies, which outlive the
+// options and the instrument's handle.
+struct DetectorOptics {
+    OpticsAt at;
+    bool varies;
+    Region region;
+};
+DetectorOptics detector_optics(const wfpsf_instrument &instrument, const char *band, int32_t sca,
+                               const wfpsf_options *options);
+
 // OK, or the warning that the error estimate does not meet EPS.
 wfpsf_status certify(double estimate, double eps);
 

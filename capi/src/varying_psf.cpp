@@ -5,25 +5,6 @@
 
 using namespace wfpsf;
 
-namespace {
-
-// A detector and what is left around it.
-Region region_of(const Instrument &instrument) {
-    constexpr double margin = Instrument::field_margin_pix;
-    return {-margin, -margin, static_cast<double>(instrument.pixels.x - 1) + margin,
-            static_cast<double>(instrument.pixels.y - 1) + margin};
-}
-
-Light light_of(const Band &band, double wavelength_nm, const wfpsf_sed *sed) {
-    if (!sed)
-        return one_colour_in(band, wavelength_nm);
-    if (wavelength_nm != 0)
-        fail(WFPSF_ERROR_ARGUMENT, "wavelength_nm = %g: must be 0 with an SED", wavelength_nm);
-    return detected_light(band, sed->sed);
-}
-
-} // namespace
-
 wfpsf_status wfpsf_varying_psf_create(const wfpsf_instrument *instrument, const char *band,
                                       int32_t sca, double wavelength_nm, const wfpsf_sed *sed,
                                       const wfpsf_options *options, wfpsf_varying_psf **out) {
@@ -33,21 +14,12 @@ wfpsf_status wfpsf_varying_psf_create(const wfpsf_instrument *instrument, const 
         require_pointer(instrument, "instrument");
         require_pointer(band, "band");
         const Instrument &i = instrument->instrument;
-        const Light light = light_of(i.band(band), wavelength_nm, sed);
+        const Light light = light_of(i.band(band), wavelength_nm, sed ? &sed->sed : nullptr);
         const PsfSettings settings = make_settings(i, is_mirrored(i, options), options);
-        const bool varies = i.field_points(sca).size() > 1;
-        const std::shared_ptr<const Aperture> aperture = make_aperture_of(i, sca, band, options);
-        // The model outlives the options and may outlive the instrument: it gets copies.
-        const auto optics = [owner = *instrument, aperture, sca, rule = field_rule(options),
-                             added = AddedAberrations(options),
-                             wavelength = settings.wavelength](double x, double y) {
-            const Instrument &its = owner.instrument;
-            return Optics{aperture, make_wavefront(its, its.zernikes(sca, x, y, rule), added),
-                          wavelength};
-        };
-        auto made = std::make_unique<wfpsf_varying_psf>(wfpsf_varying_psf{
-            VaryingPsf(optics, varies, light, settings, region_of(i), manners_of(options)),
-            light(0).mean_wavelength() * 1e9, i.pixel_scale_arcsec()});
+        const auto [at, varies, region] = detector_optics(*instrument, band, sca, options);
+        auto made = std::make_unique<wfpsf_varying_psf>(
+            wfpsf_varying_psf{VaryingPsf(at, varies, light, settings, region, manners_of(options)),
+                              light(0).mean_wavelength() * 1e9, i.pixel_scale_arcsec()});
         const double estimate = made->varying.error_estimate();
         *out = made.release();
         return certify(estimate, settings.eps);

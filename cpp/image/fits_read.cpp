@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <limits>
 #include <new>
 #include <optional>
@@ -151,6 +152,25 @@ Image read_fits(const std::string &path, const FitsHdu &hdu, std::optional<Pixel
     Image image = read_pixels(file, header, type);
     read_record(file, path, image);
     return image;
+}
+
+std::optional<std::string> read_fits_text(const std::string &path, const std::string &name) {
+    constexpr size_t card_length = 80;
+    std::ifstream file(path, std::ios::binary);
+    std::string key = name;
+    key.resize(8, ' ');
+    key += "= '";
+    for (std::string card(card_length, ' '); file.read(card.data(), card_length);) {
+        if (card.starts_with("END     "))
+            break;
+        if (!card.starts_with(key))
+            continue;
+        std::string text = card.substr(key.size());
+        text = text.substr(0, text.find('\''));
+        const size_t last = text.find_last_not_of(' ');
+        return text.substr(0, last == std::string::npos ? 0 : last + 1);
+    }
+    return {};
 }
 
 } // namespace wfpsf

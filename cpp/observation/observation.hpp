@@ -3,6 +3,7 @@
 // Immutable. Pixels count from the first one's centre at (0, 0).
 #pragma once
 
+#include "image/fits.hpp"
 #include "instrument/instrument.hpp"
 #include "observation/tan_sip.hpp"
 
@@ -66,7 +67,8 @@ class Observation {
     std::vector<Detector> detectors_;
 };
 
-// The FITS keywords of a detector's image: cards of 80 characters one after another, no END.
+// The FITS keywords of a detector's image; and as cards of 80 characters one after another, no END.
+std::vector<FitsKeyword> fits_keywords(const Observation &observation, int sca);
 std::string fits_header(const Observation &observation, int sca);
 
 } // namespace wfpsf

@@ -14,14 +14,15 @@
 namespace wfpsf {
 
 // Adds the stars to rows first_row..last_row of an image, each with the light that falls within
-// `radius` samples of it along both axes, clipped at the borders; stars out of reach add nothing.
-// field_of(i) is the field of star i; it is asked for only if the star reaches these rows.
-template <class T, class FieldOf>
-void add_stars_to_rows(std::span<const Star> stars, double radius, int64_t oversampling,
+// radius_of(i) samples of it along both axes, clipped at the borders; stars out of reach add
+// nothing. field_of(i) is the field of star i; it is asked for only if the star reaches these rows.
+template <class T, class RadiusOf, class FieldOf>
+void add_stars_to_rows(std::span<const Star> stars, RadiusOf radius_of, int64_t oversampling,
                        View<T> image, int64_t first_row, int64_t last_row, FieldOf field_of) {
     Plane<double> stamp;
     for (size_t i = 0; i < stars.size(); ++i) {
         const Star &star = stars[i];
+        const double radius = radius_of(i);
         // Far from the image nothing is done, and nothing overflows.
         if (star.x < -radius || star.x > static_cast<double>(image.nx) + radius ||
             star.y < -radius || star.y > static_cast<double>(image.ny) + radius)

@@ -6,6 +6,7 @@
 #include "optics/add_stars.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -29,13 +30,13 @@ double node(int k, int degree) {
 
 // The values at u of the polynomials that are one at one node and zero at the others (Berrut &
 // Trefethen 2004, SIAM Review 46, 501).
-std::vector<double> lagrange(double u, int degree) {
-    std::vector<double> values(static_cast<size_t>(degree) + 1);
+std::array<double, largest_degree + 1> lagrange(double u, int degree) {
+    std::array<double, largest_degree + 1> values{};
     double sum = 0;
     for (int k = 0; k <= degree; ++k) {
         const double distance = u - node(k, degree);
         if (distance == 0) {
-            std::ranges::fill(values, 0.0);
+            values.fill(0);
             values[static_cast<size_t>(k)] = 1;
             return values;
         }
@@ -48,17 +49,37 @@ std::vector<double> lagrange(double u, int degree) {
     return values;
 }
 
+// The sum of the first planes on a window, x0 <= x < x1 and the same of y.
+struct Window {
+    int64_t x0, y0, x1, y1;
+};
 WFPSF_VECTORISED void sum_planes(const std::vector<Plane<double>> &planes,
-                                 const std::vector<double> &weights, View<double> out) {
-    for (int64_t y = 0; y < out.ny; ++y) {
+                                 std::span<const double> weights, const Window &window,
+                                 View<double> out) {
+    for (int64_t y = window.y0; y < window.y1; ++y) {
         double *const row = out.row(y);
-        std::fill_n(row, out.nx, 0.0);
-        for (size_t p = 0; p < planes.size(); ++p) {
+        std::fill(row + window.x0, row + window.x1, 0.0);
+        for (size_t p = 0; p < weights.size(); ++p) {
             const double *const from = planes[p].view().row(y);
-            for (int64_t x = 0; x < out.nx; ++x)
+            for (int64_t x = window.x0; x < window.x1; ++x)
                 row[x] += weights[p] * from[x];
         }
     }
+}
+
+Window all_of(View<const double> plane) {
+    return {0, 0, plane.nx, plane.ny};
+}
+
+// What of a field stamps of that radius are drawn from.
+Window reach_of(const Field &field, double radius) {
+    const auto half =
+        static_cast<int64_t>(std::ceil(radius * static_cast<double>(field.per_pixel))) +
+        field.interpolator.half_width() + 1;
+    const auto begin = [half](int64_t size) { return std::max<int64_t>(size / 2 - half, 0); };
+    const auto end = [half](int64_t size) { return std::min(size / 2 + half + 1, size); };
+    const View<const double> all = field.value.view();
+    return {begin(all.nx), begin(all.ny), end(all.nx), end(all.ny)};
 }
 
 double largest_difference(const Plane<double> &a, const Plane<double> &b) {
@@ -89,6 +110,7 @@ VaryingPsf::VaryingPsf(OpticsAt optics, bool varies, Light light, const PsfSetti
     if (!varies) {
         mode_.push_back(plain_.value);
         share_ = {{1}};
+        left_out_ = {plain_.peak, 0};
         return;
     }
     std::vector<Plane<double>> light_at_nodes;
@@ -160,6 +182,9 @@ void VaryingPsf::compress(const std::vector<Plane<double>> &nodes) {
          kept > 1 &&
          (left_out += reach(kept - 1)) < share_of_modes * settings_.eps * plain_.faintest_peak;)
         --kept;
+    left_out_.assign(static_cast<size_t>(kept) + 1, 0);
+    for (Eigen::Index k = kept; k-- > 0;)
+        left_out_[static_cast<size_t>(k)] = left_out_[static_cast<size_t>(k) + 1] + reach(k);
     mode_.clear();
     share_.assign(nodes.size(), {});
     for (Eigen::Index k = 0; k < kept; ++k) {
@@ -183,27 +208,29 @@ double VaryingPsf::measured_error() {
         const Field truth = exact(u, v);
         const auto [x, y] = place(u, v);
         Plane<double> light(plain_.value.nx(), plain_.value.ny());
-        sum_planes(mode_, weights(x, y), light.view());
+        std::vector<double> weight(mode_.size());
+        weights(x, y, weight);
+        sum_planes(mode_, weight, all_of(light.view()), light.view());
         worst = std::max(worst, largest_difference(light, truth.value) / truth.faintest_peak);
     }
     return safety * worst;
 }
 
-std::vector<double> VaryingPsf::weights(double x, double y) const {
+void VaryingPsf::weights(double x, double y, std::span<double> out) const {
     const auto scaled = [](double at, double low, double high) {
         return std::clamp(2 * (at - low) / (high - low) - 1, -1.0, 1.0);
     };
-    const std::vector<double> along_x = lagrange(scaled(x, region_.x0, region_.x1), degree_);
-    const std::vector<double> along_y = lagrange(scaled(y, region_.y0, region_.y1), degree_);
-    std::vector<double> sums(mode_.size());
-    for (size_t j = 0; j < along_y.size(); ++j)
-        for (size_t i = 0; i < along_x.size(); ++i) {
+    const auto along_x = lagrange(scaled(x, region_.x0, region_.x1), degree_);
+    const auto along_y = lagrange(scaled(y, region_.y0, region_.y1), degree_);
+    std::ranges::fill(out, 0.0);
+    const auto n = static_cast<size_t>(degree_) + 1;
+    for (size_t j = 0; j < n; ++j)
+        for (size_t i = 0; i < n; ++i) {
             const double weight = along_x[i] * along_y[j];
-            const std::vector<double> &shares = share_[j * along_x.size() + i];
-            for (size_t k = 0; k < sums.size(); ++k)
-                sums[k] += weight * shares[k];
+            const std::vector<double> &shares = share_[j * n + i];
+            for (size_t k = 0; k < out.size(); ++k)
+                out[k] += weight * shares[k];
         }
-    return sums;
 }
 
 bool VaryingPsf::is_inside(double x, double y) const {
@@ -215,7 +242,9 @@ Psf VaryingPsf::at(double x, double y) const {
         fail(WFPSF_ERROR_RANGE, "(x, y) = (%g, %g): must lie in %g..%g, %g..%g", x, y, region_.x0,
              region_.x1, region_.y0, region_.y1);
     Field field = plain_;
-    sum_planes(mode_, weights(x, y), field.value.view());
+    std::vector<double> weight(mode_.size());
+    weights(x, y, weight);
+    sum_planes(mode_, weight, all_of(field.value.view()), field.value.view());
     field.find_peaks();
     field.error = error_;
     return Psf(optics_(x, y), light_, settings_, std::move(field));
@@ -238,16 +267,41 @@ void VaryingPsf::add(std::span<const Star> stars, double x0, double y0, int64_t 
                  "star %zu: stands at (%g, %g) of the detector, must lie in %g..%g, %g..%g", i, x,
                  y, region_.x0, region_.x1, region_.y0, region_.y1);
     }
+    const StarDetail all{settings_.radius, mode_.size()};
     on_bands_of_rows(image.ny, threads, [&](int64_t first_row, int64_t last_row) {
-        Field field = plain_;
-        add_stars_to_rows(stars, radius, oversampling, image, first_row, last_row,
-                          [&](size_t i) -> const Field & {
-                              sum_planes(mode_,
-                                         weights(x0 + native(stars[i].x), y0 + native(stars[i].y)),
-                                         field.value.view());
-                              return field;
-                          });
+        add_rows(
+            stars, [&all](size_t) -> const StarDetail & { return all; }, x0, y0, oversampling,
+            image, first_row, last_row);
     });
+}
+
+template <class T>
+void VaryingPsf::add_to_rows(std::span<const Star> stars, std::span<const StarDetail> details,
+                             double x0, double y0, int64_t oversampling, View<T> image,
+                             int64_t first_row, int64_t last_row) const {
+    add_rows(
+        stars, [&details](size_t i) -> const StarDetail & { return details[i]; }, x0, y0,
+        oversampling, image, first_row, last_row);
+}
+
+template <class T, class DetailOf>
+void VaryingPsf::add_rows(std::span<const Star> stars, DetailOf detail_of, double x0, double y0,
+                          int64_t oversampling, View<T> image, int64_t first_row,
+                          int64_t last_row) const {
+    const auto n = static_cast<double>(oversampling);
+    const auto native = [n](double sample) { return (sample - (n - 1) / 2) / n; };
+    Field field = plain_;
+    std::vector<double> weight(mode_.size());
+    add_stars_to_rows(
+        stars, [&](size_t i) { return n * detail_of(i).radius; }, oversampling, image, first_row,
+        last_row,
+        [&](size_t i) -> const Field & {
+            const StarDetail &detail = detail_of(i);
+            const std::span first(weight.data(), detail.rank);
+            weights(x0 + native(stars[i].x), y0 + native(stars[i].y), first);
+            sum_planes(mode_, first, reach_of(field, detail.radius), field.value.view());
+            return field;
+        });
 }
 
 int64_t VaryingPsf::memory() const {
@@ -255,6 +309,10 @@ int64_t VaryingPsf::memory() const {
            plain_.value.ny();
 }
 
+template void VaryingPsf::add_to_rows(std::span<const Star>, std::span<const StarDetail>, double,
+                                      double, int64_t, View<float>, int64_t, int64_t) const;
+template void VaryingPsf::add_to_rows(std::span<const Star>, std::span<const StarDetail>, double,
+                                      double, int64_t, View<double>, int64_t, int64_t) const;
 template void VaryingPsf::add(std::span<const Star>, double, double, int64_t, View<float>,
                               int) const;
 template void VaryingPsf::add(std::span<const Star>, double, double, int64_t, View<double>,

@@ -20,6 +20,13 @@ struct Region {
     double x0, y0, x1, y1;
 };
 
+// How much of a PSF a star needs: the light within `radius` native pixels of it along both axes, and
+// of the fields that PSFs are sums of the first so many.
+struct StarDetail {
+    double radius;
+    size_t rank;
+};
+
 // Immutable once made.
 class VaryingPsf {
   public:
@@ -35,6 +42,17 @@ class VaryingPsf {
     template <class T>
     void add(std::span<const Star> stars, double x0, double y0, int64_t oversampling, View<T> image,
              int threads) const;
+
+    // Adds stars to rows first_row..last_row, each in its own detail and, off the region, with the
+    // PSF of the nearest place in it.
+    template <class T>
+    void add_to_rows(std::span<const Star> stars, std::span<const StarDetail> details, double x0,
+                     double y0, int64_t oversampling, View<T> image, int64_t first_row,
+                     int64_t last_row) const;
+
+    // What the first `rank` fields leave out: the largest fraction of the light in a native pixel,
+    // at any place.
+    double left_out(size_t rank) const { return left_out_[rank]; }
 
     const PsfSettings &settings() const { return settings_; }
     // Estimates in units of the peak pixel, at any place: of all errors, of the interpolation
@@ -57,7 +75,11 @@ class VaryingPsf {
     std::vector<Plane<double>> refined(std::vector<Plane<double>> coarse, const Progress &progress);
     void compress(const std::vector<Plane<double>> &nodes);
     double measured_error();
-    std::vector<double> weights(double x, double y) const; // of the modes
+    // Of the first modes, as many as there is room for.
+    void weights(double x, double y, std::span<double> out) const;
+    template <class T, class DetailOf>
+    void add_rows(std::span<const Star> stars, DetailOf detail_of, double x0, double y0,
+                  int64_t oversampling, View<T> image, int64_t first_row, int64_t last_row) const;
 
     OpticsAt optics_;
     Light light_;
@@ -69,6 +91,7 @@ class VaryingPsf {
     Field plain_;                            // what the fields of all places have in common
     std::vector<Plane<double>> mode_;        // of light
     std::vector<std::vector<double>> share_; // of each mode in the light at each node
+    std::vector<double> left_out_;           // by the number of modes taken
 };
 
 } // namespace wfpsf

@@ -6,6 +6,7 @@
 #ifndef WFPSF_H
 #define WFPSF_H
 
+#include <wfpsf/catalogue.h>
 #include <wfpsf/chain.h>
 #include <wfpsf/design.h>
 #include <wfpsf/image.h>
@@ -16,6 +17,7 @@
 #include <wfpsf/options.h>
 #include <wfpsf/otf.h>
 #include <wfpsf/psf.h>
+#include <wfpsf/scene.h>
 #include <wfpsf/sed.h>
 #include <wfpsf/size.h>
 #include <wfpsf/sky.h>

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "funnel.hpp"
+#include "handles.hpp"
+#include "psf_parts.hpp"
+#include "scene/plan.hpp"
+#include "scene/render.hpp"
+#include "scene/truth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+
+using namespace wfpsf;
+
+namespace {
+
+double exposure_time(const Instrument &instrument, const wfpsf_options *options) {
+    const double given = option(options, WFPSF_OPTION_EXPOSURE_TIME);
+    return std::isnan(given) ? instrument.constant("exptime").value : given;
+}
+
+SceneBudget budget_of(const Instrument &instrument, const wfpsf_options *options) {
+    SceneBudget budget{.noise = option(options, WFPSF_OPTION_SCENE_NOISE),
+                       .variance = option(options, WFPSF_OPTION_SCENE_VARIANCE),
+                       .flux = option(options, WFPSF_OPTION_SCENE_FLUX)};
+    if (std::isnan(budget.variance)) {
+        const double read_noise = instrument.constant("read_noise").value;
+        budget.variance =
+            read_noise * read_noise +
+            instrument.constant("dark_current").value * exposure_time(instrument, options) +
+            option(options, WFPSF_OPTION_SCENE_BACKGROUND);
+    }
+    return budget;
+}
+
+std::vector<Light> lights_of(const Catalogue &catalogue, const Band &band) {
+    std::vector<Light> lights;
+    for (const SourceColour &colour : catalogue.colours())
+        lights.push_back(light_of(band, colour.wavelength_nm, colour.sed ? &*colour.sed : nullptr));
+    if (lights.empty())
+        lights.push_back(one_colour_in(band, 0));
+    return lights;
+}
+
+double property_of(const ScenePlan &plan, int32_t key) {
+    switch (key) {
+    case WFPSF_SCENE_SOURCES:
+        return static_cast<double>(plan.sources().size());
+    case WFPSF_SCENE_GROUPS:
+        return static_cast<double>(plan.groups().size());
+    case WFPSF_SCENE_ERROR_ALLOWED:
+        return plan.budget().error();
+    case WFPSF_SCENE_ERROR_EXPECTED:
+        return plan.error();
+    case WFPSF_SCENE_TIME_EXPECTED:
+        return plan.time_s();
+    case WFPSF_SCENE_MEMORY_EXPECTED:
+        return static_cast<double>(plan.memory());
+    default:
+        fail(WFPSF_ERROR_UNKNOWN_NAME, "key = %d: a scene has no property of that key", key);
+    }
+}
+
+double property_of(const SourceGroup &group, int32_t key) {
+    switch (key) {
+    case WFPSF_SCENE_GROUP_COLOUR:
+        return group.colour;
+    case WFPSF_SCENE_GROUP_KIND:
+        return group.is_galaxy ? WFPSF_KIND_GALAXY : WFPSF_KIND_STAR;
+    case WFPSF_SCENE_GROUP_FLUX_FROM:
+        return std::ldexp(1.0, group.octave);
+    case WFPSF_SCENE_GROUP_SOURCES:
+        return static_cast<double>(group.count);
+    case WFPSF_SCENE_GROUP_PSF:
+        return group.way.psf == StarPsf::own ? WFPSF_SCENE_PSF_OWN : WFPSF_SCENE_PSF_SHARED;
+    case WFPSF_SCENE_GROUP_RADIUS:
+        return group.way.radius;
+    case WFPSF_SCENE_GROUP_EPS:
+        return group.way.eps;
+    case WFPSF_SCENE_GROUP_ERROR_EXPECTED:
+        return group.error;
+    case WFPSF_SCENE_GROUP_TIME_EXPECTED:
+        return group.time_s;
+    default:
+        fail(WFPSF_ERROR_UNKNOWN_NAME, "key = %d: a group has no property of that key", key);
+    }
+}
+
+double property_of(const RenderReport &report, int32_t key) {
+    switch (key) {
+    case WFPSF_RENDERING_TIME:
+        return report.time_s();
+    case WFPSF_RENDERING_TIME_MODELS:
+        return report.models_s;
+    case WFPSF_RENDERING_TIME_SHARED:
+        return report.shared_s;
+    case WFPSF_RENDERING_TIME_OWN:
+        return report.own_s;
+    case WFPSF_RENDERING_DRAWN:
+        return static_cast<double>(report.drawn);
+    case WFPSF_RENDERING_EXACT_PSFS:
+        return static_cast<double>(report.exact_psfs);
+    case WFPSF_RENDERING_ERROR_ESTIMATE:
+        return report.error;
+    default:
+        fail(WFPSF_ERROR_UNKNOWN_NAME, "key = %d: a rendering has no property of that key", key);
+    }
+}
+
+wfpsf_status certify_scene(double error, double allowed) {
+    if (error <= allowed)
+        return WFPSF_OK;
+    char line[128];
+    std::snprintf(line, sizeof line, "SCENE_NOISE: allows errors of %g e-, the estimate is %g e-",
+                  allowed, error);
+    return record_error(WFPSF_WARNING_NOT_CERTIFIED, line);
+}
+
+} // namespace
+
+wfpsf_status wfpsf_scene_create(const wfpsf_instrument *instrument,
+                                const wfpsf_observation *observation, const char *band, int32_t sca,
+                                const wfpsf_catalogue *catalogue, const wfpsf_image *image,
+                                double x0, double y0, const wfpsf_options *options,
+                                wfpsf_scene **out) {
+    return guarded([&] {
+        require_pointer(out, "out");
+        *out = nullptr;
+        require_pointer(instrument, "instrument");
+        require_pointer(band, "band");
+        require_pointer(catalogue, "catalogue");
+        require_pointer(image, "image");
+        require_finite(x0, "x0");
+        require_finite(y0, "y0");
+        if (!flag(options, WFPSF_OPTION_PIXEL_RESPONSE))
+            fail(WFPSF_ERROR_ARGUMENT, "PIXEL_RESPONSE = 0: scenes are averaged over pixels");
+        const Image &target = image->image;
+        if (target.nx() == 0 || target.ny() == 0)
+            fail(WFPSF_ERROR_SIZE, "image: is empty");
+        const Instrument &i = instrument->instrument;
+        const Catalogue &sources = catalogue->catalogue;
+        const auto [at, varies, region] = detector_optics(*instrument, band, sca, options);
+        SceneOptics optics{at, varies, region, make_settings(i, is_mirrored(i, options), options),
+                           lights_of(sources, i.band(band))};
+        double zero_flux = 1;
+        if (sources.brightness() == Brightness::ab_magnitude)
+            zero_flux = ab_zero_rate(i, band) * exposure_time(i, options);
+        std::vector<PlacedSource> placed =
+            sources.placed(observation ? &observation->observation : nullptr, sca, zero_flux);
+        ScenePlan plan(optics, std::move(placed), sources.shapes(), budget_of(i, options),
+                       {x0, y0, target.nx(), target.ny(), target.oversampling()});
+        auto made = std::make_unique<wfpsf_scene>(
+            wfpsf_scene{std::move(optics),
+                        std::move(plan),
+                        {sources.shapes().begin(), sources.shapes().end()},
+                        sources.size(),
+                        i.pixel_scale_arcsec()});
+        const ScenePlan &planned = made->plan;
+        *out = made.release();
+        return certify_scene(planned.error(), planned.budget().error());
+    });
+}
+
+void wfpsf_scene_destroy(wfpsf_scene *scene) {
+    delete scene;
+}
+
+wfpsf_status wfpsf_scene_get(const wfpsf_scene *scene, int32_t key, double *value) {
+    return guarded([&] {
+        require_pointer(scene, "scene");
+        require_pointer(value, "value");
+        *value = property_of(scene->plan, key);
+    });
+}
+
+wfpsf_status wfpsf_scene_get_group(const wfpsf_scene *scene, int64_t group, int32_t key,
+                                   double *value) {
+    return guarded([&] {
+        require_pointer(scene, "scene");
+        require_pointer(value, "value");
+        const auto &groups = scene->plan.groups();
+        if (group < 0 || group >= static_cast<int64_t>(groups.size()))
+            fail(WFPSF_ERROR_RANGE, "group = %lld: must be 0..%zu", static_cast<long long>(group),
+                 groups.size() - 1);
+        *value = property_of(groups[static_cast<size_t>(group)], key);
+    });
+}
+
+wfpsf_status wfpsf_scene_groups_of(const wfpsf_scene *scene, int64_t count, int32_t *group) {
+    return guarded([&] {
+        require_pointer(scene, "scene");
+        const std::span groups = array_of(count, group, "count", "group");
+        if (groups.size() != scene->catalogue_size)
+            fail(WFPSF_ERROR_SIZE, "count = %zu: the catalogue has %zu sources", groups.size(),
+                 scene->catalogue_size);
+        std::ranges::fill(groups, -1);
+        for (const PlacedSource &source : scene->plan.sources())
+            groups[static_cast<size_t>(source.index)] =
+                static_cast<int32_t>(scene->plan.group_index(source));
+    });
+}
+
+wfpsf_status wfpsf_scene_text(const wfpsf_scene *scene, int64_t capacity, char *text,
+                              int64_t *length) {
+    return guarded([&] {
+        require_pointer(scene, "scene");
+        copy_text(scene->plan.text(), capacity, text, length);
+    });
+}
+
+wfpsf_status wfpsf_scene_render(const wfpsf_scene *scene, const wfpsf_options *options,
+                                wfpsf_image *image, wfpsf_rendering **out) {
+    return guarded([&] {
+        if (out)
+            *out = nullptr;
+        require_pointer(scene, "scene");
+        require_pointer(image, "image");
+        Image &target = image->image;
+        const SceneImage &planned = scene->plan.image();
+        if (target.nx() != planned.nx || target.ny() != planned.ny ||
+            target.oversampling() != planned.oversampling)
+            fail(WFPSF_ERROR_SIZE,
+                 "image: has %lld x %lld samples, %d a pixel; the scene is planned for %lld x "
+                 "%lld, %lld a pixel",
+                 static_cast<long long>(target.nx()), static_cast<long long>(target.ny()),
+                 target.oversampling(), static_cast<long long>(planned.nx),
+                 static_cast<long long>(planned.ny), static_cast<long long>(planned.oversampling));
+        const PsfSettings &settings = scene->optics.settings;
+        require_light(settings, scene->pixel_scale_arcsec, target, options);
+        const auto threads = static_cast<int>(option(options, WFPSF_OPTION_THREADS));
+        auto made = std::make_unique<wfpsf_rendering>(std::visit(
+            [&](auto pixels) {
+                return wfpsf_rendering{render(scene->optics, scene->plan, scene->shapes, pixels,
+                                              threads, manners_of(options))};
+            },
+            target.pixels()));
+        record_light(settings, scene->pixel_scale_arcsec, target);
+        const double error = made->report.error;
+        if (out)
+            *out = made.release();
+        return certify_scene(error, scene->plan.budget().error());
+    });
+}
+
+void wfpsf_rendering_destroy(wfpsf_rendering *rendering) {
+    delete rendering;
+}
+
+wfpsf_status wfpsf_rendering_get(const wfpsf_rendering *rendering, int32_t key, double *value) {
+    return guarded([&] {
+        require_pointer(rendering, "rendering");
+        require_pointer(value, "value");
+        *value = property_of(rendering->report, key);
+    });
+}

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How a star's light falls off: what a stamp leaves out, by its size.
+#pragma once
+
+#include "optics/psf.hpp"
+
+#include <vector>
+
+namespace wfpsf {
+
+class LightProfile {
+  public:
+    LightProfile() = default;
+    // Seen out to psf.settings().radius; beyond, spikes fall as the square of the distance and the
+    // light outside a square as its size.
+    explicit LightProfile(const Psf &psf);
+
+    double peak() const { return brightest_[0]; }
+
+    // Fractions of the light: the largest in any native pixel whose centre is not within `radius`
+    // native pixels of the star along both axes, and all of it there.
+    double brightest_beyond(double radius) const { return at(brightest_, radius, 2); }
+    double beyond(double radius) const { return at(outside_, radius, 1); }
+
+  private:
+    double at(const std::vector<double> &by_radius, double radius, int power) const;
+
+    std::vector<double> brightest_, outside_; // at 0, 1, 2, ... native pixels
+};
+
+} // namespace wfpsf

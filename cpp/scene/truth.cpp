@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene/truth.hpp"
+
+#include "detector/ipc_convolve.hpp"
+#include "moments/adaptive.hpp"
+#include "numerics/bands.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+
+namespace wfpsf {
+
+namespace {
+
+constexpr int64_t oversampling = 4, native_side = 33; // the weight reaches about 6 sigma
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr TrueShape none{nan, nan, nan, nan, nan};
+
+TrueShape shape_of(const AdaptiveMoments &m, double x0, double y0) {
+    const auto native = [](double sample) {
+        return (sample - static_cast<double>(oversampling - 1) / 2) / oversampling;
+    };
+    return {x0 + native(m.weight.x0), y0 + native(m.weight.y0), m.sigma() / oversampling, m.e1,
+            m.e2};
+}
+
+class Measuring {
+  public:
+    Measuring(const ScenePlan &plan, const TruthOptions &options)
+        : plan_(plan), options_(options) {}
+
+    // From the source's image at `oversampling`, whose first native pixel's centre is at (x0, y0).
+    SourceTruth of(const PlacedSource &source, const Plane<double> &image, double x0,
+                   double y0) const {
+        SourceTruth truth{.bare = none, .with_ipc = none};
+        truth.flux_in_stamp = source.flux * (1 - plan_.left_out_by(source));
+        truth.bare = measured(image, x0, y0, truth.status);
+        if (options_.kernel && truth.status == WFPSF_OK) {
+            Plane<double> coupled(image.nx(), image.ny());
+            convolve(*options_.kernel, image.view(), {.tap_step = oversampling}, coupled.view());
+            truth.with_ipc = measured(coupled, x0, y0, truth.status);
+        }
+        return truth;
+    }
+
+  private:
+    TrueShape measured(const Plane<double> &image, double x0, double y0,
+                       wfpsf_status &status) const {
+        const AdaptiveMoments m =
+            adaptive_moments(image.view(), {}, {.tolerance = options_.moments_tolerance});
+        status = m.status;
+        return m.status >= 0 ? shape_of(m, x0, y0) : none;
+    }
+
+    const ScenePlan &plan_;
+    const TruthOptions &options_;
+};
+
+} // namespace
+
+std::vector<SourceTruth> truth_of(const SceneOptics &optics, const ScenePlan &plan,
+                                  std::span<const PlacedSource> sources,
+                                  const TruthOptions &options) {
+    PsfSettings settings = optics.settings;
+    settings.eps = options.eps;
+    settings.radius = static_cast<double>(native_side) / 2 + 1;
+    std::vector<std::unique_ptr<VaryingPsf>> models(optics.lights.size()); // by colour
+    for (const PlacedSource &source : sources) {
+        const auto colour = static_cast<size_t>(source.colour);
+        if (!models[colour])
+            models[colour] = std::make_unique<VaryingPsf>(
+                optics.at, optics.varies, optics.lights[colour], settings, optics.region);
+    }
+    const Measuring measuring(plan, options);
+    std::vector<SourceTruth> truths(sources.size());
+    const auto count = static_cast<int64_t>(sources.size());
+    const auto bands = std::clamp<int64_t>(options.threads, 1, std::max<int64_t>(count, 1));
+    for_each_band(bands, [&](int64_t band) {
+        for (int64_t i = count * band / bands; i < count * (band + 1) / bands; ++i) {
+            const PlacedSource &source = sources[static_cast<size_t>(i)];
+            const Region &region = optics.region;
+            const Psf psf = models[static_cast<size_t>(source.colour)]->at(
+                std::clamp(source.x, region.x0, region.x1),
+                std::clamp(source.y, region.y0, region.y1));
+            // The source in the middle native pixel, where it stands in its own.
+            constexpr int64_t half = native_side / 2;
+            const double x0 = std::round(source.x) - half, y0 = std::round(source.y) - half;
+            const auto sample = [](double native) {
+                return native * oversampling + static_cast<double>(oversampling - 1) / 2;
+            };
+            Plane<double> image(native_side * oversampling, native_side * oversampling);
+            psf.draw({sample(source.x - x0), sample(source.y - y0), source.flux}, oversampling,
+                     image.view());
+            truths[static_cast<size_t>(i)] = measuring.of(source, image, x0, y0);
+        }
+    });
+    return truths;
+}
+
+} // namespace wfpsf
