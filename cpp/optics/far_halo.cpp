@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "optics/far_halo.hpp"
 
+#include "numerics/dispatch.hpp"
+#include "optics/fresnel.hpp"
+
 #include <algorithm>
 #include <array>
 #include <numbers>
@@ -153,22 +156,47 @@ Halo::Halo(const FarSource &source, const PupilEdges &edges)
                (8 * std::pow(pi, 4) * source.pixel() * source.pixel() * source.area());
 }
 
-double Halo::at(double x, double y) const {
-    const double r2 = x * x + y * y, r = std::sqrt(r2);
-    const double row = std::min(diamond(x, y) * (directions / 4.0), directions - 1e-9);
-    const double column = std::min(std::sqrt(nearest_ / r) * distances, distances - 1e-9);
-    const auto i = static_cast<std::ptrdiff_t>(row), j = static_cast<std::ptrdiff_t>(column);
-    const double s = row - static_cast<double>(i), t = column - static_cast<double>(j);
-    const double *entry = table_.data() + i * (distances + 1) + j;
-    const double low = entry[0] + t * (entry[1] - entry[0]);
-    entry += distances + 1;
-    const double high = entry[0] + t * (entry[1] - entry[0]);
-    return (low + s * (high - low) + corners_ / r) / (r2 * r);
+namespace {
+
+struct HaloTable {
+    double nearest, per_angle, distances, corners;
+    ptrdiff_t columns;
+    const double *table;
+};
+
+WFPSF_VECTORISED void add_halo(const HaloTable &halo, double x0, double y, size_t n,
+                               double *light) {
+    const double most_row = 4 * halo.per_angle - 1e-6, most_column = halo.distances - 1e-6;
+    for (size_t i = 0; i < n; ++i) {
+        const double x = x0 + static_cast<double>(i);
+        const double r2 = x * x + y * y, r = std::sqrt(r2);
+        const double row = std::min(diamond(x, y) * halo.per_angle, most_row);
+        const double column = std::min(std::sqrt(halo.nearest / r) * halo.distances, most_column);
+        const auto j = static_cast<int32_t>(row), c = static_cast<int32_t>(column);
+        const double s = row - j, t = column - c;
+        const double *entry = halo.table + j * halo.columns + c;
+        const double low = entry[0] + t * (entry[1] - entry[0]);
+        entry += halo.columns;
+        const double high = entry[0] + t * (entry[1] - entry[0]);
+        light[i] += (low + s * (high - low) + halo.corners / r) / (r2 * r);
+    }
 }
 
-template <class T> void Halo::add(double x, double y, double flux, std::span<T> image) const {
-    for (size_t i = 0; i < image.size(); ++i)
-        image[i] += static_cast<T>(flux * at(x + static_cast<double>(i), y));
+} // namespace
+
+void Halo::add(const PixelRow &row, double floor) const {
+    const double square = std::pow(radius(floor), 2) - row.y * row.y;
+    if (square <= 0)
+        return;
+    const double half = std::sqrt(square);
+    const auto first = static_cast<int64_t>(std::ceil(std::max(0.0, -half - row.x)));
+    const auto last = static_cast<int64_t>(std::floor(
+        std::min(static_cast<double>(row.light.size()) - 1, half - row.x)));
+    if (first > last)
+        return;
+    const PixelRow part = row.part(first, last);
+    add_halo({nearest_, directions / 4.0, distances, corners_, distances + 1, table_.data()},
+             part.x, part.y, part.light.size(), part.light.data());
 }
 
 double Halo::radius(double floor) const {
@@ -177,8 +205,5 @@ double Halo::radius(double floor) const {
         r *= 1.01;
     return r;
 }
-
-template void Halo::add(double, double, double, std::span<float>) const;
-template void Halo::add(double, double, double, std::span<double>) const;
 
 } // namespace wfpsf

@@ -14,9 +14,8 @@ class Halo {
   public:
     Halo(const FarSource &source, const PupilEdges &edges);
 
-    double at(double x, double y) const;
-    // image[i] += flux * light at (x + i, y).
-    template <class T> void add(double x, double y, double flux, std::span<T> image) const;
+    // Adds fractions of the light, where they may be above the floor.
+    void add(const PixelRow &row, double floor) const;
 
     double brightest(double r) const { return (most_ + corners_ / r) / (r * r * r); }
     // The distance from which on all light is below the floor.

@@ -10,8 +10,6 @@
 #include "optics/spectrum.hpp"
 
 #include <array>
-#include <cmath>
-#include <complex>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -43,53 +41,54 @@ struct SpikeAxes {
     double across(double x, double y) const { return nx * y - ny * x; }
 };
 
-// The pixels first..last of a row.
-struct Run {
-    int64_t first, last;
+// A row of pixels, the first one at (x, y).
+struct PixelRow {
+    double x, y;
+    std::span<double> light;
+
+    PixelRow part(int64_t first, int64_t last) const {
+        return {x + static_cast<double>(first), y,
+                light.subspan(static_cast<size_t>(first), static_cast<size_t>(last - first + 1))};
+    }
 };
 
-// The light of one edge by itself.
+// The light of one edge by itself, within 45 degrees of the spike; what is left is no spike.
 class Spike {
   public:
-    SpikeAxes axes() const { return axes_; }
-    double at(double x, double y) const;
+    const SpikeAxes &axes() const { return axes_; }
 
-    // Of the row of pixels at (x + i, y), i < n, those where the light may be above the floor.
-    std::vector<Run> runs(double x, double y, int64_t n, double floor) const;
-    // image[i] += flux * light at (x + i, y).
-    template <class T> void add(double x, double y, double flux, std::span<T> image) const;
+    // Adds fractions of the light, where they may be above the floor.
+    void add(const PixelRow &row, double floor) const;
 
+    // The most at a distance of r.
     double brightest(double r) const { return scale_ * most_ / (r * r); }
-    // The distance from the spike's line beyond which the light at a distance r along it is fainter
-    // than the floor.
+    // How far from its line a spike's light is above the floor, at the distance r along it.
     double half_width(double r, double floor) const;
 
   private:
     friend class SpikeTables;
-    SpikeAxes axes_;
-    double scale_;   // of the light
-    double tail_;    // beyond the table: over the square of the distance across
-    double most_;    // in the table
-    double per_step_; // table entries a native pixel
-    double reach_;   // of the table, native pixels
+    SpikeAxes axes_{};
+    double scale_ = 0;    // of the light
+    double tail_ = 0;     // beyond the table: over the square of the distance across
+    double most_ = 0;     // in the table
+    double per_pixel_ = 0; // table entries
+    double reach_ = 0;    // of the table, native pixels
     // By position across: what is the same at all distances along, and what goes as their inverse.
-    std::vector<std::array<double, 2>> profile_;
+    std::vector<double> constant_, slope_;
 };
 
 // What edges in about one direction make together beyond the sum of each: the fringes of a strut's
 // two sides, for one.
 class Fringes {
   public:
-    double at(double x, double y) const;
-    std::vector<Run> runs(double x, double y, int64_t n, double floor) const;
-    template <class T> void add(double x, double y, double flux, std::span<T> image) const;
+    void add(const PixelRow &row, double floor) const;
     double brightest(double r) const { return most_ / (r * r); }
 
   private:
     friend class SpikeTables;
-    SpikeAxes axes_;
-    double most_;
-    double nearest_, per_along_, per_across_; // the table's first distance; entries a native pixel
+    SpikeAxes axes_{};
+    double most_ = 0;
+    double nearest_ = 0, per_along_ = 0, per_across_ = 0; // entries a native pixel
     int64_t rows_ = 0, columns_ = 0;
     // On either side of the star: light times the distance's square by distance along and position
     // across. The last row holds for all distances beyond.
@@ -101,6 +100,6 @@ struct Spikes {
     std::vector<Fringes> fringes;
 };
 
-Spikes make_spikes(const FarSource &source, const std::vector<StraightEdge> &edges);
+Spikes make_spikes(const FarSource &source, const PupilEdges &edges);
 
 } // namespace wfpsf
