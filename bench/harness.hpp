@@ -33,6 +33,7 @@ struct Case {
 
 std::vector<Case> psf_cases();
 std::vector<Case> wide_psf_cases();
+std::vector<Case> far_light_cases();
 std::vector<Case> varying_psf_cases();
 std::vector<Case> transform_cases();
 std::vector<Case> ipc_cases();

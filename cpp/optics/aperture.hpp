@@ -79,6 +79,9 @@ class Aperture {
     // The pupil drawn on nx by ny square pixels, or a mask's own pixels, however many.
     virtual PupilRaster raster(int64_t nx, int64_t ny) const = 0;
 
+    // What a pupil given as geometry is made of. A mask has no such parts: WFPSF_ERROR_ARGUMENT.
+    virtual const std::vector<LitPart> &parts() const = 0;
+
     double area() const { return area_; }         // lit, m^2
     double diameter() const { return diameter_; } // the larger extent along x or y, m
     Outline outline() const { return outline_; }  // what the lit area fits in, as large

@@ -277,6 +277,8 @@ template <class Pupil> class GeometricAperture final : public Aperture {
         return wfpsf::raster(parts_, nx, ny);
     }
 
+    const std::vector<LitPart> &parts() const override { return parts_; }
+
   private:
     static constexpr double strip_share = 0.1; // of eps, for a strip's transform
 

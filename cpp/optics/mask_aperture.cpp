@@ -134,6 +134,10 @@ class MaskAperture final : public Aperture {
         fail(WFPSF_ERROR_ARGUMENT, "mask: derivatives are of pupils given as geometry alone");
     }
 
+    const std::vector<LitPart> &parts() const override {
+        fail(WFPSF_ERROR_ARGUMENT, "mask: has pixels, and no edges that light far off comes from");
+    }
+
     StripMemory strip_memory(double, const FocalGrid &grid, double) const override {
         const int64_t lines = grid.size * lit_.ny();
         const int64_t buffer = ChirpTransform::batch * 4 * (grid.size + lit_.ny());

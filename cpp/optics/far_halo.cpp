@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "optics/far_halo.hpp"
+
+#include "numerics/dispatch.hpp"
+#include "optics/fresnel.hpp"
+
+#include <algorithm>
+#include <array>
+#include <numbers>
+
+namespace wfpsf {
+
+namespace {
+
+using Complex = std::complex<double>;
+constexpr double pi = std::numbers::pi;
+
+// C(x) + i S(x), good to 2e-3 (Abramowitz & Stegun 7.3.32 and 7.3.33).
+Complex fresnel(double x) {
+    const double a = std::abs(x);
+    const double f = (1 + 0.926 * a) / (2 + a * (1.792 + a * 3.104));
+    const double g = 1 / (2 + a * (4.142 + a * (3.492 + a * 6.670)));
+    const double s = std::sin(pi / 2 * a * a), c = std::cos(pi / 2 * a * a);
+    const Complex value(0.5 + f * s - g * c, 0.5 - f * c - g * s);
+    return x < 0 ? -value : value;
+}
+
+// Angles about a circle: 0..4 along a square that stands on its corner, quick to find.
+double diamond(double x, double y) {
+    const double p = y / (std::abs(x) + std::abs(y));
+    return x < 0 ? 2 - p : y < 0 ? 4 + p : p;
+}
+std::array<double, 2> direction(double angle) {
+    const double quarter = std::floor(angle), p = angle - quarter;
+    const double x = 1 - p, y = p, norm = std::hypot(x, y);
+    switch (static_cast<int>(quarter) & 3) {
+    case 0:
+        return {x / norm, y / norm};
+    case 1:
+        return {-y / norm, x / norm};
+    case 2:
+        return {-x / norm, -y / norm};
+    default:
+        return {y / norm, -x / norm};
+    }
+}
+
+// What a curved edge's point sends in the direction that its normal points along: all per unit of
+// k = r / wavelength, and corrections by the wavefront.
+struct Source {
+    double place;            // along the direction, m
+    double speed;            // metres a radian
+    double bend;             // second derivative of k.u by the oval's angle, over k
+    double begin, end;       // of the edge from there, radians
+    bool closed;
+    double slope, w_slope, w_bend; // W_n, dW/da, d2W/da2
+};
+
+std::vector<Source> sources(const std::vector<CurvedEdge> &edges, const Wavefront &w, double ux,
+                            double uy) {
+    std::vector<Source> out;
+    for (const CurvedEdge &edge : edges) {
+        const Oval &o = edge.oval;
+        const double a = ux * o.half_width + uy * o.shear, b = uy * o.half_height;
+        for (const double side : {1.0, -1.0}) {
+            double at = std::atan2(side * b, side * a);
+            const double middle = (edge.begin + edge.end) / 2;
+            at = middle + std::remainder(at - middle, 2 * pi);
+            const auto point = [&](double angle) -> std::array<double, 2> {
+                const double u = std::cos(angle), v = std::sin(angle);
+                return {o.x + o.half_width * u, o.y + o.shear * u + o.half_height * v};
+            };
+            const auto waves = [&](double angle, double out_by) {
+                const auto [x, y] = point(angle);
+                return w(x + out_by * ux, y + out_by * uy);
+            };
+            const auto [x, y] = point(at);
+            constexpr double h = 1e-3, turn = 1e-2;
+            const double before = waves(at - turn, 0), here = waves(at, 0),
+                         after = waves(at + turn, 0);
+            out.push_back({x * ux + y * uy,
+                           std::hypot(o.half_width * std::sin(at),
+                                      o.half_height * std::cos(at) - o.shear * std::sin(at)),
+                           -side * std::hypot(a, b), edge.begin - at, edge.end - at, edge.closed(),
+                           (waves(at, h) - waves(at, -h)) / (2 * h), (after - before) / (2 * turn),
+                           (after - 2 * here + before) / (turn * turn)});
+        }
+    }
+    return out;
+}
+
+// The amplitude times 2 pi k, where k is the distance in cycles per metre.
+Complex amplitude(const Source &s, double k) {
+    const double bend = k * s.bend + s.w_bend;
+    const double shift = -s.w_slope / bend;
+    const double per_radian = std::sqrt(2 * std::abs(bend));
+    Complex part = std::sqrt(2.0);
+    if (s.closed) {
+        part = {1, 1};
+    } else {
+        const double begin = (s.begin - shift) * per_radian, end = (s.end - shift) * per_radian;
+        if (begin > 12 || end < -12)
+            return 0;
+        part = fresnel(end) - fresnel(begin);
+    }
+    if (bend < 0)
+        part = std::conj(part);
+    // The outward normal points along the direction or against it; so does the way into the light.
+    return part * (s.speed / (per_radian * (1 + s.slope / k))) *
+           std::polar(s.bend < 0 ? 1.0 : -1.0, 2 * pi * k * s.place);
+}
+
+} // namespace
+
+Halo::Halo(const FarSource &source, const PupilEdges &edges)
+    : nearest_(source.nearest), most_(0),
+      table_(static_cast<size_t>((directions + 1) * (distances + 1))) {
+    const double wavelength = source.mean_wavelength();
+    const Wavefront w = source.wavefront(wavelength);
+    double spread = 0; // variance of 1 / wavelength
+    for (size_t q = 0; q < source.spectrum.size(); ++q)
+        spread += source.spectrum.weight[q] *
+                  std::pow(1 / source.spectrum.wavelength[q] - 1 / wavelength, 2);
+    const double scale = source.pixel() * source.pixel() /
+                         (source.area() * wavelength * wavelength * 4 * pi * pi);
+    for (int i = 0; i < directions; ++i) {
+        const auto [ux, uy] = direction(4.0 * i / directions);
+        const std::vector<Source> points = sources(edges.curved, w, ux, uy);
+        for (int j = 1; j <= distances; ++j) {
+            const double v = static_cast<double>(j) / distances, r = nearest_ / (v * v);
+            const double k = r * source.pixel() / wavelength;
+            std::vector<Complex> amplitudes;
+            std::vector<double> places;
+            for (const Source &s : points)
+                if (const Complex a = amplitude(s, k); a != 0.0) {
+                    amplitudes.push_back(a);
+                    places.push_back(s.place);
+                }
+            double sum = 0;
+            for (size_t a = 0; a < places.size(); ++a) {
+                sum += std::norm(amplitudes[a]);
+                for (size_t b = 0; b < a; ++b) {
+                    const double path = (places[a] - places[b]) * r * source.pixel();
+                    const double seen = std::exp(-2 * pi * pi * spread * path * path);
+                    sum += 2 * seen * (amplitudes[a] * std::conj(amplitudes[b])).real();
+                }
+            }
+            table_[static_cast<size_t>(i * (distances + 1) + j)] = scale * sum / (k * k) * r * r * r;
+        }
+        const auto row = table_.begin() + i * (distances + 1);
+        row[0] = row[1];
+        most_ = std::max(most_, *std::max_element(row, row + distances + 1));
+    }
+    std::copy_n(table_.begin(), distances + 1, table_.end() - (distances + 1));
+    corners_ = 2 * static_cast<double>(edges.straight.size()) * source.mean_wavelength(2) /
+               (8 * std::pow(pi, 4) * source.pixel() * source.pixel() * source.area());
+}
+
+namespace {
+
+struct HaloTable {
+    double nearest, per_angle, distances, corners;
+    ptrdiff_t columns;
+    const double *table;
+};
+
+WFPSF_VECTORISED void add_halo(const HaloTable &halo, double x0, double y, size_t n,
+                               double *light) {
+    const double most_row = 4 * halo.per_angle - 1e-6, most_column = halo.distances - 1e-6;
+    for (size_t i = 0; i < n; ++i) {
+        const double x = x0 + static_cast<double>(i);
+        const double r2 = x * x + y * y, r = std::sqrt(r2);
+        const double row = std::min(diamond(x, y) * halo.per_angle, most_row);
+        const double column = std::min(std::sqrt(halo.nearest / r) * halo.distances, most_column);
+        const auto j = static_cast<int32_t>(row), c = static_cast<int32_t>(column);
+        const double s = row - j, t = column - c;
+        const double *entry = halo.table + j * halo.columns + c;
+        const double low = entry[0] + t * (entry[1] - entry[0]);
+        entry += halo.columns;
+        const double high = entry[0] + t * (entry[1] - entry[0]);
+        light[i] += (low + s * (high - low) + halo.corners / r) / (r2 * r);
+    }
+}
+
+} // namespace
+
+void Halo::add(const PixelRow &row, double floor) const {
+    const double square = std::pow(radius(floor), 2) - row.y * row.y;
+    if (square <= 0)
+        return;
+    const double half = std::sqrt(square);
+    const auto first = static_cast<int64_t>(std::ceil(std::max(0.0, -half - row.x)));
+    const auto last = static_cast<int64_t>(std::floor(
+        std::min(static_cast<double>(row.light.size()) - 1, half - row.x)));
+    if (first > last)
+        return;
+    const PixelRow part = row.part(first, last);
+    add_halo({nearest_, directions / 4.0, distances, corners_, distances + 1, table_.data()},
+             part.x, part.y, part.light.size(), part.light.data());
+}
+
+double Halo::radius(double floor) const {
+    double r = std::cbrt(most_ / floor);
+    while (brightest(r) > floor)
+        r *= 1.01;
+    return r;
+}
+
+} // namespace wfpsf

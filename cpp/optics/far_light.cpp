@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "optics/far_light.hpp"
+
+#include "error/error.hpp"
+#include "numerics/bands.hpp"
+#include "optics/add_stars.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wfpsf {
+
+namespace {
+
+constexpr double nearest_pixel = 24; // of the tables
+constexpr size_t colours = 14;       // enough for the fringes that the tables hold
+
+FarSource far_source(const Optics &optics, const Light &light, const PsfSettings &settings) {
+    const double diameter = optics.aperture->diameter();
+    const double path = diameter * nearest_pixel * settings.pixel_scale;
+    const Spectrum spectrum = light(path);
+    const auto [blue, red] = std::ranges::minmax(spectrum.wavelength);
+    const double fringes = path * (1 / blue - 1 / red);
+    if (!(fringes >= 2))
+        fail(WFPSF_ERROR_ARGUMENT,
+             "light: %g fringes differ across the pupil at %g pixels, must be 2 or more", fringes,
+             nearest_pixel);
+    const WavelengthRule rule(spectrum, colours);
+    return {optics, settings,
+            rule.exact() ? spectrum : Spectrum{rule.wavelengths(), rule.own_weights()},
+            nearest_pixel};
+}
+
+} // namespace
+
+FarLight::FarLight(const Optics &optics, const Light &light, const PsfSettings &settings)
+    : FarLight(far_source(optics, light, settings), pupil_edges(optics.aperture->parts()),
+               settings.mirrored ? -1 : 1) {}
+
+FarLight::FarLight(const FarSource &source, const PupilEdges &edges, double mirror)
+    : source_nearest_(source.nearest), mirror_(mirror), spikes_(make_spikes(source, edges)),
+      halo_(source, edges) {}
+
+void FarLight::add(const PixelRow &row, double floor) const {
+    halo_.add(row, floor);
+    for (const Spike &spike : spikes_.spikes)
+        spike.add(row, floor);
+    for (const Fringes &fringes : spikes_.fringes)
+        fringes.add(row, floor);
+}
+
+double FarLight::at(double x, double y) const {
+    double light[2] = {0, 0}; // a row has two pixels or more
+    constexpr double no_floor = 1e-30;
+    add({x, mirror_ * y, light}, no_floor);
+    return light[0];
+}
+
+template <class T>
+void FarLight::add(const Star &star, double inner, double floor, View<T> image,
+                   int threads) const {
+    if (!(inner >= source_nearest_))
+        fail(WFPSF_ERROR_RANGE, "inner = %g: must be %g or more", inner, source_nearest_);
+    if (!(floor > 0))
+        fail(WFPSF_ERROR_RANGE, "floor = %g: must be above 0", floor);
+    const double share = floor / star.flux;
+    on_bands_of_rows(image.ny, threads, [&](int64_t first_row, int64_t last_row) {
+        std::vector<double> light(static_cast<size_t>(image.nx));
+        for (int64_t y = first_row; y <= last_row; ++y) {
+            const double off = static_cast<double>(y) - star.y;
+            const auto part = [&](int64_t first, int64_t end) {
+                first = std::clamp<int64_t>(first, 0, image.nx);
+                end = std::clamp<int64_t>(end, first, image.nx);
+                if (first == end)
+                    return;
+                const std::span<double> pixels(light.data(), static_cast<size_t>(end - first));
+                std::ranges::fill(pixels, 0.0);
+                add({static_cast<double>(first) - star.x, mirror_ * off, pixels}, share);
+                for (int64_t x = first; x < end; ++x)
+                    image(x, y) +=
+                        static_cast<T>(star.flux * pixels[static_cast<size_t>(x - first)]);
+            };
+            if (std::abs(off) > inner) {
+                part(0, image.nx);
+            } else {
+                part(0, static_cast<int64_t>(std::ceil(star.x - inner)));
+                part(static_cast<int64_t>(std::floor(star.x + inner)) + 1, image.nx);
+            }
+        }
+    });
+}
+
+double FarLight::brightest_beyond(double r) const {
+    double most = halo_.brightest(r);
+    for (const Spike &spike : spikes_.spikes)
+        most += spike.brightest(r);
+    return most;
+}
+
+std::vector<FarLight::Direction> FarLight::spikes(double r, double floor) const {
+    std::vector<Direction> out;
+    for (const Spike &spike : spikes_.spikes)
+        out.push_back(
+            {spike.axes().nx, mirror_ * spike.axes().ny, spike.half_width(r, floor)});
+    return out;
+}
+
+template void FarLight::add(const Star &, double, double, View<float>, int) const;
+template void FarLight::add(const Star &, double, double, View<double>, int) const;
+
+} // namespace wfpsf

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The light of a bright star far from the core, from about 30 native pixels on: diffraction spikes
+// and halo, from the pupil's edges alone (Keller's geometrical theory of diffraction, 1962, J. Opt.
+// Soc. Am. 52, 116). Some nanoseconds a pixel; the exact engine's cost grows with the distance.
+#pragma once
+
+#include "image/view.hpp"
+#include "optics/far_halo.hpp"
+#include "optics/far_spikes.hpp"
+
+#include <vector>
+
+namespace wfpsf {
+
+// Immutable once made; all members may be called from many threads. Light is a fraction of all
+// light in a native pixel, as in Psf; without pixel response it is the density at the pixel's
+// centre.
+class FarLight {
+  public:
+    // Of pupils given as geometry, and light of so many colours that fringes across the pupil are
+    // washed out: WFPSF_ERROR_ARGUMENT for masks and narrow bands.
+    FarLight(const Optics &optics, const Light &light, const PsfSettings &settings);
+
+    // Where it begins, native pixels from the star.
+    double nearest() const { return source_nearest_; }
+
+    // At (x, y) native pixels from the star, nearest() off or farther.
+    double at(double x, double y) const;
+
+    // Adds a star's far light to all pixels that are more than `inner` native pixels off it along
+    // either axis, nearest() or more: all that a stamp of that radius leaves out. Spikes and halo
+    // are drawn where they may be above `floor`, in units of the image.
+    template <class T>
+    void add(const Star &star, double inner, double floor, View<T> image, int threads = 1) const;
+
+    // No pixel as far from the star as r, or farther, gets more.
+    double brightest_beyond(double r) const;
+
+    // The spikes point along (x, y) and (-x, -y), in the image's frame.
+    struct Direction {
+        double x, y;
+        double half_width; // from where on, across, the spike is below the floor
+    };
+    std::vector<Direction> spikes(double r, double floor) const;
+
+    // The radius from which on all halo between the spikes is below the floor.
+    double halo_radius(double floor) const { return halo_.radius(floor); }
+
+    // Estimate of the error as a share of the light: of a spike's, averaged along it, and of single
+    // pixels between the spikes.
+    struct Error {
+        double spikes, halo;
+    };
+    Error relative_error(double r) const;
+
+  private:
+    FarLight(const FarSource &source, const PupilEdges &edges, double mirror);
+    void add(const PixelRow &row, double floor) const;
+
+    double source_nearest_, mirror_;
+    Spikes spikes_;
+    Halo halo_;
+};
+
+} // namespace wfpsf

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Diffraction spikes of broadband light. A straight edge with outward normal n gives the amplitude
+//     n.k / (2 pi i k^2) * integral along it of (1 - W_n / n.k) exp(2 pi i (W + k.u)) ds,
+// k = theta / lambda: the divergence theorem, to first order in the wavefront's slope W_n along n.
+// Positions are native pixels from the star, in the pupil's frame.
+#pragma once
+
+#include "optics/field.hpp"
+#include "optics/pupil_edges.hpp"
+#include "optics/spectrum.hpp"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace wfpsf {
+
+// What the light far from the core follows from.
+struct FarSource {
+    const Optics &optics;
+    const PsfSettings &settings;
+    Spectrum spectrum; // a Gauss rule of a few points
+    double nearest;    // native pixels
+
+    double area() const { return optics.aperture->area(); }
+    double pixel() const { return settings.pixel_scale; }
+    // Cycles per native pixel that an intensity may hold.
+    double bandwidth() const;
+    // Mean of the wavelength's power.
+    double mean_wavelength(int power = 1) const;
+    Wavefront wavefront(double wavelength) const {
+        return optics.wavefront.scaled(optics.wavelength / wavelength);
+    }
+};
+
+// Along and across a spike.
+struct SpikeAxes {
+    double nx, ny;
+    double along(double x, double y) const { return nx * x + ny * y; }
+    double across(double x, double y) const { return nx * y - ny * x; }
+};
+
+// A row of pixels, the first one at (x, y).
+struct PixelRow {
+    double x, y;
+    std::span<double> light;
+
+    PixelRow part(int64_t first, int64_t last) const {
+        return {x + static_cast<double>(first), y,
+                light.subspan(static_cast<size_t>(first), static_cast<size_t>(last - first + 1))};
+    }
+};
+
+// The light of one edge by itself, within 45 degrees of the spike; what is left is no spike.
+class Spike {
+  public:
+    const SpikeAxes &axes() const { return axes_; }
+
+    // Adds fractions of the light, where they may be above the floor.
+    void add(const PixelRow &row, double floor) const;
+
+    // The most at a distance of r.
+    double brightest(double r) const { return scale_ * most_ / (r * r); }
+    // How far from its line a spike's light is above the floor, at the distance r along it.
+    double half_width(double r, double floor) const;
+
+  private:
+    friend class SpikeTables;
+    SpikeAxes axes_{};
+    double scale_ = 0;    // of the light
+    double tail_ = 0;     // beyond the table: over the square of the distance across
+    double most_ = 0;     // in the table
+    double per_pixel_ = 0; // table entries
+    double reach_ = 0;    // of the table, native pixels
+    // By position across: what is the same at all distances along, and what goes as their inverse.
+    std::vector<double> constant_, slope_;
+};
+
+// What edges in about one direction make together beyond the sum of each: the fringes of a strut's
+// two sides, for one.
+class Fringes {
+  public:
+    void add(const PixelRow &row, double floor) const;
+    double brightest(double r) const { return most_ / (r * r); }
+
+  private:
+    friend class SpikeTables;
+    SpikeAxes axes_{};
+    double most_ = 0;
+    double nearest_ = 0, per_along_ = 0, per_across_ = 0; // entries a native pixel
+    int64_t rows_ = 0, columns_ = 0;
+    // On either side of the star: light times the distance's square by distance along and position
+    // across. The last row holds for all distances beyond.
+    std::array<std::vector<double>, 2> table_;
+};
+
+struct Spikes {
+    std::vector<Spike> spikes;
+    std::vector<Fringes> fringes;
+};
+
+Spikes make_spikes(const FarSource &source, const PupilEdges &edges);
+
+} // namespace wfpsf
