@@ -75,6 +75,11 @@ struct Range {
     int64_t count() const { return last - first + 1; }
 };
 
+void require_tolerance(double tolerance) {
+    if (!(tolerance > 0))
+        fail(WFPSF_ERROR_RANGE, "tolerance = %g: must be > 0", tolerance);
+}
+
 Range overlap(int64_t centre, int64_t below, int64_t above, int64_t pixels) {
     return {std::max<int64_t>(centre - below, 0), std::min(centre + above, pixels - 1)};
 }
@@ -135,51 +140,56 @@ const GalaxyGrid &GalaxyDrawer::grid(int64_t size, int level, bool top) {
     return found->second;
 }
 
-// From the transform of the transfer function itself, of a size whose folds hardly matter.
+// From transforms of a size whose folds hardly matter.
 void GalaxyDrawer::measure_psf() {
     constexpr int64_t size = 96;
     const GalaxyGrid &all = grid(size, 0, true);
     curvature_ = all.curvature();
-    const Sersic &point = profiles_.of(1);
-    const View<double> psf = all.draw(point.table(), {1e-300, 0, 1e-300, 1}, 0, 0, 1, buffers_);
-    wings_.assign(size / 2 + 1, 0);
-    for (int64_t y = 0; y < size; ++y)
-        for (int64_t x = 0; x < size; ++x) {
-            const auto far =
-                static_cast<size_t>(std::max(std::abs(x - size / 2), std::abs(y - size / 2)));
-            wings_[far] = std::max(wings_[far], std::abs(psf(x, y)));
-        }
-    for (size_t i = wings_.size() - 1; i-- > 0;)
-        wings_[i] = std::max(wings_[i], wings_[i + 1]);
+    const SersicTable &gaussian = profiles_.of(0.5).table();
+    for (const double radius : {1e-9, 1.0, 2.0, 4.0, 8.0}) {
+        const double square = 4 * pi * pi * radius * radius;
+        const View<double> psf =
+            all.draw(gaussian, {square, 0, square, gaussian.highest()}, 0, 0, 1, buffers_);
+        std::vector<double> &wings = wings_.emplace_back(size / 2 + 1, 0.0);
+        for (int64_t y = 0; y < size; ++y)
+            for (int64_t x = 0; x < size; ++x) {
+                const auto far =
+                    static_cast<size_t>(std::max(std::abs(x - size / 2), std::abs(y - size / 2)));
+                wings[far] = std::max(wings[far], std::abs(psf(x, y)));
+            }
+        for (size_t i = wings.size() - 1; i-- > 0;)
+            wings[i] = std::max(wings[i], wings[i + 1]);
+    }
 }
 
-// Where the PSF stays below a fraction of the light in a pixel: as measured, and beyond that with
-// the spikes' fall.
-double GalaxyDrawer::psf_radius(double fraction) {
+// An estimate of where the image stays below `tolerance`: that of the profile, and that of the
+// PSF's wings. These are measured up to a distance, and fall like spikes beyond.
+double GalaxyDrawer::reach(const Shape &shape, double tolerance) {
+    if (shape.flux == 0)
+        return 0;
     if (wings_.empty())
         measure_psf();
-    const auto last = static_cast<double>(wings_.size() - 1);
-    if (wings_.back() >= fraction)
-        return last * std::sqrt(wings_.back() / fraction);
-    const auto below = std::ranges::find_if(wings_, [=](double w) { return w < fraction; });
-    return static_cast<double>(below - wings_.begin());
+    const double part = tolerance / shape.flux;
+    const double core = shape.radius * shape.radius / shape.longest / (2 * shape.profile.index());
+    const auto blur = static_cast<size_t>(std::clamp(std::ilogb(core) + 1, 0, 4));
+    const std::vector<double> &wings = wings_[blur];
+    const auto below = std::ranges::find_if(wings, [=](double w) { return w < part; });
+    double far = static_cast<double>(below - wings.begin());
+    if (below == wings.end())
+        far = static_cast<double>(wings.size() - 1) * std::sqrt(wings.back() / part);
+    const double profile =
+        shape.longest * shape.profile.radius_of(part * shape.radius * shape.radius);
+    return std::max(profile + 1, far);
 }
 
 double GalaxyDrawer::radius(const Galaxy &galaxy, double tolerance) {
-    if (!(tolerance > 0))
-        fail(WFPSF_ERROR_RANGE, "tolerance = %g: must be > 0", tolerance);
-    const Shape shape = shape_of(galaxy);
-    if (shape.flux == 0)
-        return 0;
-    const double part = tolerance / shape.flux / 2;
-    const double wings = psf_radius(part);
-    const double profile =
-        shape.longest * shape.profile.radius_of(part * shape.radius * shape.radius);
-    return std::max(profile + 1, wings + std::min(shape.longest, wings));
+    require_tolerance(tolerance);
+    return reach(shape_of(galaxy), tolerance / 2);
 }
 
 // 1 - F(k) <= k^2 <r^2> / 4, over all wave numbers.
 bool GalaxyDrawer::is_point_like(const Galaxy &galaxy, double tolerance) {
+    require_tolerance(tolerance);
     const Shape shape = shape_of(galaxy);
     if (wings_.empty())
         measure_psf();
@@ -209,12 +219,13 @@ double GalaxyDrawer::level_bound(const Shape &shape, int level, bool top) const 
 
 template <class T>
 GalaxyDrawer::Drawn GalaxyDrawer::add(const Galaxy &galaxy, double tolerance, View<T> image) {
-    const double reach = radius(galaxy, tolerance / 2);
+    require_tolerance(tolerance);
     const Shape shape = shape_of(galaxy);
+    const double far = reach(shape, tolerance / 2);
     Drawn drawn{0, 0};
-    if (shape.flux == 0 || galaxy.x + reach < 0 || galaxy.y + reach < 0 ||
-        galaxy.x - reach > static_cast<double>(image.nx - 1) ||
-        galaxy.y - reach > static_cast<double>(image.ny - 1))
+    if (shape.flux == 0 || galaxy.x + far < 0 || galaxy.y + far < 0 ||
+        galaxy.x - far > static_cast<double>(image.nx - 1) ||
+        galaxy.y - far > static_cast<double>(image.ny - 1))
         return drawn;
 
     // Wave numbers from where on all together give no pixel a sixteenth of the tolerance.
@@ -233,11 +244,11 @@ GalaxyDrawer::Drawn GalaxyDrawer::add(const Galaxy &galaxy, double tolerance, Vi
     const auto y0 = static_cast<int64_t>(std::llround(galaxy.y));
     const auto margin = static_cast<int64_t>(interpolator().half_width());
     int levels = 1;
-    double size = 2 * reach + 1;
+    double size = 2 * far + 1;
     while (size > static_cast<double>(most_pixels)) {
         // The coarser light has margins as wide as the levels' meeting.
         const auto step = static_cast<double>(step_of(levels));
-        size = (2 * reach + 1 + static_cast<double>(most_pixels) * step / ratio) / step +
+        size = (2 * far + 1 + static_cast<double>(most_pixels) * step / ratio) / step +
                static_cast<double>(2 * margin + 2);
         ++levels;
     }
@@ -273,8 +284,8 @@ GalaxyDrawer::Drawn GalaxyDrawer::add(const Galaxy &galaxy, double tolerance, Vi
                 }
             continue;
         }
-        const int64_t far = (half - 1 - margin) * step;
-        const Range x = overlap(x0, far, far, image.nx), y = overlap(y0, far, far, image.ny);
+        const int64_t edge = (half - 1 - margin) * step;
+        const Range x = overlap(x0, edge, edge, image.nx), y = overlap(y0, edge, edge, image.ny);
         if (x.empty() || y.empty())
             continue;
         constexpr int64_t rows = 64;

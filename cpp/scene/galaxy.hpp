@@ -53,7 +53,7 @@ class GalaxyDrawer {
   private:
     struct Shape; // a galaxy in pixels
     Shape shape_of(const Galaxy &galaxy);
-    double psf_radius(double fraction);
+    double reach(const Shape &shape, double tolerance);
     const GalaxyGrid &grid(int64_t size, int level, bool top);
     void measure_psf();
     double level_bound(const Shape &shape, int level, bool top) const;
@@ -64,7 +64,9 @@ class GalaxyDrawer {
     std::map<std::array<int64_t, 3>, GalaxyGrid> grids_;
     GalaxyBuffers buffers_;
     Plane<double> strip_;
-    std::vector<double> wings_; // largest value of the PSF at that distance along x or y or farther
+    // The largest value of the PSF at a distance along x or y or farther, blurred by Gaussians of
+    // half-light radii 0, 1, 2, 4 ... pixels.
+    std::vector<std::vector<double>> wings_;
     double curvature_ = 0;
 };
 

@@ -27,9 +27,8 @@ void fill_phases(int64_t reach, double shift, double scale, Complex *out) {
 
 // The profile's transform at q = c + x (b + a x) for x = first, first + 1, ...
 WFPSF_VECTORISED
-void fill_profile(const SersicTable &table, double a, double b, double c, int64_t first,
+void fill_profile(SersicTable::Lookup profile_of, double a, double b, double c, int64_t first,
                   int64_t count, double *out) {
-    const SersicTable profile_of = table;
     for (int64_t i = 0; i < count; ++i) {
         const auto x = static_cast<double>(first + i);
         out[i] = profile_of(c + x * (b + a * x));
@@ -67,7 +66,7 @@ GalaxyGrid::GalaxyGrid(const Transfer &transfer, int64_t size, int64_t step,
         // The folds whose sums are wanted: those with 0 <= kx mod size <= half.
         for (int64_t fold = -(reach_ / size + 1) * size; fold <= reach_; fold += size) {
             const int64_t first = std::max(fold, -reach_), last = std::min(fold + half, reach_);
-            int64_t begin = last + 1, end = first;
+            int64_t begin = reach_ + 1, end = -reach_;
             const size_t start = re_.size();
             std::vector<Complex> values;
             for (int64_t kx = first; kx <= last; ++kx) {
@@ -116,6 +115,7 @@ View<double> GalaxyGrid::draw(const SersicTable &profile, const WaveForm &form, 
     fill_phases(reach_, (y + middle) * per_index, flux * per_index * per_index,
                 buffers.phase_y.data());
     const double square = per_index * per_index;
+    const SersicTable::Lookup lookup = profile.lookup();
     const double a = form.xx * square, b = form.xy * square, c = form.yy * square;
     for (const Run &run : runs_) {
         // As far as the profile's transform counts: a x^2 + 2 b x y + c y^2 <= largest.
@@ -133,7 +133,7 @@ View<double> GalaxyGrid::draw(const SersicTable &profile, const WaveForm &form, 
         if (first > last)
             continue;
         const int64_t count = last - first + 1, skipped = first - run.kx;
-        fill_profile(profile, a, 2 * b * ky, c * ky * ky, first, count, buffers.profile.data());
+        fill_profile(lookup, a, 2 * b * ky, c * ky * ky, first, count, buffers.profile.data());
         add_products(buffers.profile.data(), re_.data() + run.first + skipped,
                      im_.data() + run.first + skipped, buffers.phase_x.data() + first + reach_,
                      buffers.phase_y[static_cast<size_t>(run.ky + reach_)], count,

@@ -20,10 +20,9 @@ class SersicTable {
 
     static constexpr double error = 1e-9; // absolute, of F; a test holds it against other methods
 
-    // Any q >= 0.
-    [[gnu::always_inline]] double operator()(double q) const {
-        return value(coefficients_.data(), first_, lowest_, highest_, q);
-    }
+    // Any q >= 0. Apart from its table, for loops that become vector instructions.
+    class Lookup;
+    Lookup lookup() const;
 
     // The largest integral of |F| k dk from wave number `from` to `to`, k <= what q holds.
     double absolute_integral(double from, double to) const;
@@ -33,16 +32,6 @@ class SersicTable {
     static constexpr int bits = 3;
     static constexpr size_t terms = 6;
 
-    [[gnu::always_inline]] static double value(const double *coefficients, uint64_t first,
-                                               double lowest, double highest, double q) {
-        q = q < lowest ? lowest : q;
-        q = q > highest ? highest : q;
-        const auto word = std::bit_cast<uint64_t>(q);
-        const double *c = coefficients + terms * ((word >> (52 - bits)) - first);
-        const uint64_t fraction = (word << bits) & 0x000fffffffffffff;
-        const double t = std::bit_cast<double>(fraction | 0x3ff0000000000000) - 1.5;
-        return c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))));
-    }
     size_t interval(double q) const;
 
     uint64_t first_;
@@ -50,6 +39,32 @@ class SersicTable {
     std::vector<double> coefficients_;
     std::vector<double> integral_; // of |F| k dk up to the start of each interval, rounded up
 };
+
+class SersicTable::Lookup {
+  public:
+    [[gnu::always_inline]] double operator()(double q) const {
+        q = q < lowest_ ? lowest_ : q;
+        q = q > highest_ ? highest_ : q;
+        const auto word = std::bit_cast<uint64_t>(q);
+        const double *c = coefficients_ + terms * ((word >> (52 - bits)) - first_);
+        const uint64_t fraction = (word << bits) & 0x000fffffffffffff;
+        const double t = std::bit_cast<double>(fraction | 0x3ff0000000000000) - 1.5;
+        return c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * (c[4] + t * c[5]))));
+    }
+
+  private:
+    friend class SersicTable;
+    Lookup(const double *coefficients, uint64_t first, double lowest, double highest)
+        : coefficients_(coefficients), first_(first), lowest_(lowest), highest_(highest) {}
+
+    const double *coefficients_;
+    uint64_t first_;
+    double lowest_, highest_;
+};
+
+inline SersicTable::Lookup SersicTable::lookup() const {
+    return {coefficients_.data(), first_, lowest_, highest_};
+}
 
 class Sersic {
   public:
@@ -67,7 +82,7 @@ class Sersic {
     double mean_square_radius() const { return mean_square_radius_; }
 
     // F(k) = integral of I(r) J0(k r) 2 pi r dr.
-    double transform(double k) const { return table_(k * k); }
+    double transform(double k) const { return table_.lookup()(k * k); }
     const SersicTable &table() const { return table_; }
 
   private:
