@@ -38,7 +38,7 @@ namespace {
 // Unaligned, so that any buffer will do; an estimate does not touch the data.
 constexpr unsigned flags = FFTW_ESTIMATE | FFTW_UNALIGNED;
 
-using Shape = std::array<int64_t, 3>; // dimensions; n and batch, or nx and ny
+using Shape = std::array<int64_t, 3>; // kind; n and batch, or nx and ny
 
 template <class Make> fftw_plan plan_of(const Shape &shape, Make make) {
     // For the life of the process: never destroyed, so that threads may outlive main().
@@ -66,6 +66,18 @@ BackwardFft2d::BackwardFft2d(int64_t nx, int64_t ny)
           return fftw_plan_dft_2d(static_cast<int>(ny), static_cast<int>(nx), nullptr, nullptr,
                                   FFTW_BACKWARD, flags);
       })) {}
+
+RealBackwardFft2d::RealBackwardFft2d(int64_t nx, int64_t ny)
+    : PlannedFft(plan_of({3, nx, ny}, [&] {
+          // Told apart, so that the plan is for two buffers.
+          fftw_complex *in = nullptr;
+          double out = 0;
+          return fftw_plan_dft_c2r_2d(static_cast<int>(ny), static_cast<int>(nx), in, &out, flags);
+      })) {}
+
+void RealBackwardFft2d::run(std::complex<double> *in, double *out) const {
+    fftw_execute_dft_c2r(static_cast<fftw_plan>(plan()), reinterpret_cast<fftw_complex *>(in), out);
+}
 
 void PlannedFft::run(std::complex<double> *data) const {
     auto *buffer = reinterpret_cast<fftw_complex *>(data);

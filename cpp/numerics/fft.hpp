@@ -23,6 +23,7 @@ class PlannedFft {
 
   protected:
     explicit PlannedFft(void *plan) : plan_(plan) {}
+    void *plan() const { return plan_; }
 
   private:
     void *plan_; // fftw_plan, owned by the cache
@@ -39,6 +40,14 @@ class BackwardFft : public PlannedFft {
 class BackwardFft2d : public PlannedFft {
   public:
     BackwardFft2d(int64_t nx, int64_t ny);
+};
+
+// The same for numbers whose transform is real: of the input, rows of nx / 2 + 1 numbers, the rest
+// is their mirror image. Destroys its input.
+class RealBackwardFft2d : private PlannedFft {
+  public:
+    RealBackwardFft2d(int64_t nx, int64_t ny);
+    void run(std::complex<double> *in, double *out) const;
 };
 
 } // namespace wfpsf

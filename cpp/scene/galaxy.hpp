@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Images of galaxies with elliptical Sersic profiles, seen through an effective PSF.
+#pragma once
+
+#include "image/view.hpp"
+#include "optics/otf.hpp"
+#include "scene/galaxy_grid.hpp"
+#include "scene/sersic.hpp"
+
+#include <array>
+#include <cstdint>
+#include <map>
+
+namespace wfpsf {
+
+struct Galaxy {
+    double x, y; // centre, native pixels; the first pixel's centre is at (0, 0)
+    double flux;
+    double sersic_index;
+    double half_light_radius; // arcsec; sqrt(a b) of the half-light ellipse
+    // (a - b) / (a + b) exp(2 i phi), phi from the x axis to the major one: the reduced shear.
+    double e1, e2;
+};
+
+// The OTF must outlive what is made of it.
+Transfer transfer_of(const Otf &otf, double pixel_scale);
+
+// Draws any number of galaxies behind one PSF, on one thread: keeps the transfer function on the
+// grids that were needed so far. The image is the sum over all wave numbers
+//     flux * F(|S k| r_e) * OTF(k) exp(2 pi i k . (p - x)),  S the shear,
+// at the pixels p; with ever coarser grids around the galaxy for the light farther out.
+class GalaxyDrawer {
+  public:
+    // `pixel_scale` in arcsec; `profiles` may serve many drawers of a thread.
+    GalaxyDrawer(Transfer transfer, double pixel_scale, SersicProfiles &profiles);
+
+    struct Drawn {
+        double light; // that the image got, of the galaxy's flux
+        double error; // estimate of the largest error of any pixel, the transfer function's apart
+    };
+
+    // Adds a galaxy to an image of native pixels, clipped at the borders. No pixel is off by more
+    // than `tolerance`, in units of the flux; light fainter than that is left out far from the
+    // galaxy. WFPSF_ERROR_RANGE, _NOT_FINITE for a galaxy that is none.
+    template <class T> Drawn add(const Galaxy &galaxy, double tolerance, View<T> image);
+
+    // Pixels farther than that from the galaxy, along either axis, get less than `tolerance`.
+    double radius(const Galaxy &galaxy, double tolerance);
+
+    // Is no pixel off by more than `tolerance` if a star is drawn in place of the galaxy?
+    bool is_point_like(const Galaxy &galaxy, double tolerance);
+
+  private:
+    struct Shape; // a galaxy in pixels
+    Shape shape_of(const Galaxy &galaxy);
+    double reach(const Shape &shape, double tolerance);
+    const GalaxyGrid &grid(int64_t size, int level, bool top);
+    void measure_psf();
+    double level_bound(const Shape &shape, int level, bool top) const;
+
+    Transfer transfer_;
+    double pixel_scale_;
+    SersicProfiles &profiles_;
+    std::map<std::array<int64_t, 3>, GalaxyGrid> grids_;
+    GalaxyBuffers buffers_;
+    Plane<double> strip_;
+    // The largest value of the PSF at a distance along x or y or farther, blurred by Gaussians of
+    // half-light radii 0, 1, 2, 4 ... pixels.
+    std::vector<std::vector<double>> wings_;
+    double curvature_ = 0;
+};
+
+} // namespace wfpsf
