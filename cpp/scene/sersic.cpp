@@ -67,7 +67,8 @@ double checked(double index) {
 
 // The polynomial through values at nodes, by Newton's divided differences.
 template <size_t n>
-std::array<double, n> interpolate(const std::array<double, n> &nodes, std::array<double, n> values) {
+std::array<double, n> interpolate(const std::array<double, n> &nodes,
+                                  std::array<double, n> values) {
     for (size_t order = 1; order < n; ++order)
         for (size_t i = n; i-- > order;)
             values[i] = (values[i] - values[i - 1]) / (nodes[i] - nodes[i - order]);
@@ -149,7 +150,8 @@ double Sersic::enclosed(double r) const {
 
 const Sersic &SersicProfiles::of(double index) {
     const auto found = profiles_.find(index);
-    return found != profiles_.end() ? found->second : profiles_.try_emplace(index, index).first->second;
+    return found != profiles_.end() ? found->second
+                                    : profiles_.try_emplace(index, index).first->second;
 }
 
 } // namespace wfpsf
