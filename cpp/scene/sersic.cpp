@@ -84,7 +84,7 @@ std::array<double, n> interpolate(const std::array<double, n> &nodes,
 } // namespace
 
 SersicTable::SersicTable(double n, double b, double mean_square_radius) {
-    constexpr int intervals = 1 << bits; // an octave
+    constexpr size_t intervals = 1 << bits; // an octave
     std::array<double, terms> nodes;
     for (size_t i = 0; i < terms; ++i)
         nodes[i] = std::cos(pi * (static_cast<double>(i) + 0.5) / terms) / 2;
@@ -94,20 +94,24 @@ SersicTable::SersicTable(double n, double b, double mean_square_radius) {
     lowest_ = std::ldexp(1.0, lowest);
     first_ = std::bit_cast<uint64_t>(lowest_) >> (52 - bits);
     const SersicHankel hankel(n, b);
-    double largest = 1, integral = 0;
+    double integral = 0;
     // Two octaves of nothing are the end: one may hold a zero.
     for (int octave = lowest, faint = 0; faint < 2; ++octave) {
-        largest = 0;
-        for (int i = 0; i < intervals; ++i) {
-            std::array<double, terms> values;
+        std::array<double, terms * intervals> logs, values;
+        for (size_t i = 0; i < logs.size(); ++i) {
+            const double place = static_cast<double>(i / terms) + 0.5 + nodes[i % terms];
+            logs[i] = std::log(std::ldexp(1 + place / intervals, octave)) / 2;
+        }
+        hankel.at(logs, values.data());
+        double largest = 0;
+        for (size_t i = 0; i < intervals; ++i) {
+            std::array<double, terms> here;
+            std::copy_n(values.data() + terms * i, terms, here.data());
             double most = 0;
-            for (size_t j = 0; j < terms; ++j) {
-                const double q = std::ldexp(1 + (i + 0.5 + nodes[j]) / intervals, octave);
-                values[j] = hankel.at(std::log(q) / 2);
-                most = std::max(most, std::abs(values[j]));
-            }
-            const std::array<double, terms> c = interpolate(nodes, values);
-            coefficients_.insert(coefficients_.end(), c.begin(), c.end());
+            for (const double value : here)
+                most = std::max(most, std::abs(value));
+            const std::array<double, terms> polynomial = interpolate(nodes, here);
+            coefficients_.insert(coefficients_.end(), polynomial.begin(), polynomial.end());
             integral_.push_back(integral);
             integral += most * std::ldexp(0.5 / intervals, octave);
             largest = std::max(largest, most);
