@@ -99,7 +99,8 @@ SersicTable::SersicTable(double n, double b, double mean_square_radius) {
     for (int octave = lowest, faint = 0; faint < 2; ++octave) {
         std::array<double, terms * intervals> logs, values;
         for (size_t i = 0; i < logs.size(); ++i) {
-            const double place = static_cast<double>(i / terms) + 0.5 + nodes[i % terms];
+            const size_t eighth = i / terms;
+            const double place = static_cast<double>(eighth) + 0.5 + nodes[i % terms];
             logs[i] = std::log(std::ldexp(1 + place / intervals, octave)) / 2;
         }
         hankel.at(logs, values.data());
