@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Light of a bright star far from the core, by the pupil's edges. Errors against the exact engine,
 // which a tilt of the wavefront takes to a spike 128 native pixels off.
+#include "optics/far_light.hpp"
+
 #include "harness.hpp"
 #include "instrument/instrument.hpp"
-#include "optics/far_light.hpp"
 #include "optics/psf.hpp"
 #include "oracles/psf_oracle.hpp"
 
@@ -107,9 +108,8 @@ Case drawing_case(const char *name, const char *band, double floor) {
                 far.add(star, 64, 1e-12, all.view());
                 for (int64_t y = 0; y < 4088; ++y)
                     for (int64_t x = 0; x < 4088; ++x)
-                        m.error = std::max(m.error,
-                                           std::abs(static_cast<double>(all(x, y)) -
-                                                    static_cast<double>(image(x, y))));
+                        m.error = std::max(m.error, std::abs(static_cast<double>(all(x, y)) -
+                                                             static_cast<double>(image(x, y))));
                 return m;
             }};
 }
@@ -117,12 +117,9 @@ Case drawing_case(const char *name, const char *band, double floor) {
 } // namespace
 
 std::vector<Case> far_light_cases() {
-    return {making_case("roman-c9", "J129"),
-            making_case("wfirst-afta-c5", "J129"),
-            making_case("wfirst-afta-c5", "F184"),
-            drawing_case("roman-c9", "J129", 1e-12),
-            drawing_case("roman-c9", "J129", 0.01),
-            drawing_case("roman-c9", "J129", 0.05)};
+    return {making_case("roman-c9", "J129"),        making_case("wfirst-afta-c5", "J129"),
+            making_case("wfirst-afta-c5", "F184"),  drawing_case("roman-c9", "J129", 1e-12),
+            drawing_case("roman-c9", "J129", 0.01), drawing_case("roman-c9", "J129", 0.05)};
 }
 
 } // namespace wfpsf::bench

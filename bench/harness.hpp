@@ -40,5 +40,7 @@ std::vector<Case> ipc_cases();
 std::vector<Case> moments_cases();
 std::vector<Case> study_cases();
 std::vector<Case> observation_cases();
+std::vector<Case> scene_cases();
+std::vector<Case> galaxy_cases();
 
 } // namespace wfpsf::bench

@@ -48,18 +48,27 @@ std::array<double, 2> direction(double angle) {
 // What a curved edge's point sends in the direction that its normal points along: all per unit of
 // k = r / wavelength, and corrections by the wavefront.
 struct Source {
-    double place;            // along the direction, m
-    double speed;            // metres a radian
-    double bend;             // second derivative of k.u by the oval's angle, over k
-    double begin, end;       // of the edge from there, radians
+    double place;      // along the direction, m
+    double speed;      // metres a radian
+    double outwards;   // +1: the direction is that of the outward normal; -1: against it
+    double bend;       // second derivative of k.u by the oval's angle, over k
+    double begin, end; // of the edge from there, radians
     bool closed;
+    bool smooth_begin, smooth_end; // a straight edge goes on there, which has that end's light
     double slope, w_slope, w_bend; // W_n, dW/da, d2W/da2
 };
 
-std::vector<Source> sources(const std::vector<CurvedEdge> &edges, const Wavefront &w, double ux,
-                            double uy) {
+std::vector<Source> sources(const PupilEdges &edges, const std::vector<Junction> &junctions,
+                            const Wavefront &w, double ux, double uy) {
     std::vector<Source> out;
-    for (const CurvedEdge &edge : edges) {
+    for (size_t i = 0; i < edges.curved.size(); ++i) {
+        const CurvedEdge &edge = edges.curved[i];
+        const auto smooth = [&](bool at_begin) {
+            return std::ranges::any_of(junctions, [&](const Junction &j) {
+                return j.curved == i && j.at_begin == at_begin && j.kink < 0.01;
+            });
+        };
+        const bool smooth_begin = smooth(true), smooth_end = smooth(false);
         const Oval &o = edge.oval;
         const double a = ux * o.half_width + uy * o.shear, b = uy * o.half_height;
         for (const double side : {1.0, -1.0}) {
@@ -81,7 +90,8 @@ std::vector<Source> sources(const std::vector<CurvedEdge> &edges, const Wavefron
             out.push_back({x * ux + y * uy,
                            std::hypot(o.half_width * std::sin(at),
                                       o.half_height * std::cos(at) - o.shear * std::sin(at)),
-                           -side * std::hypot(a, b), edge.begin - at, edge.end - at, edge.closed(),
+                           edge.lit_inside ? side : -side, -side * std::hypot(a, b),
+                           edge.begin - at, edge.end - at, edge.closed(), smooth_begin, smooth_end,
                            (waves(at, h) - waves(at, -h)) / (2 * h), (after - before) / (2 * turn),
                            (after - 2 * here + before) / (turn * turn)});
         }
@@ -101,13 +111,15 @@ Complex amplitude(const Source &s, double k) {
         const double begin = (s.begin - shift) * per_radian, end = (s.end - shift) * per_radian;
         if (begin > 12 || end < -12)
             return 0;
-        part = fresnel(end) - fresnel(begin);
+        constexpr double far_off = 1e3;
+        if ((s.smooth_begin && begin > 0) || (s.smooth_end && end < 0))
+            return 0;
+        part = fresnel(s.smooth_end ? far_off : end) - fresnel(s.smooth_begin ? -far_off : begin);
     }
     if (bend < 0)
         part = std::conj(part);
-    // The outward normal points along the direction or against it; so does the way into the light.
     return part * (s.speed / (per_radian * (1 + s.slope / k))) *
-           std::polar(s.bend < 0 ? 1.0 : -1.0, 2 * pi * k * s.place);
+           std::polar(1.0, 2 * pi * k * s.place) * s.outwards;
 }
 
 } // namespace
@@ -121,11 +133,12 @@ Halo::Halo(const FarSource &source, const PupilEdges &edges)
     for (size_t q = 0; q < source.spectrum.size(); ++q)
         spread += source.spectrum.weight[q] *
                   std::pow(1 / source.spectrum.wavelength[q] - 1 / wavelength, 2);
-    const double scale = source.pixel() * source.pixel() /
-                         (source.area() * wavelength * wavelength * 4 * pi * pi);
+    const double scale =
+        source.pixel() * source.pixel() / (source.area() * wavelength * wavelength * 4 * pi * pi);
+    const std::vector<Junction> all_junctions = junctions(edges);
     for (int i = 0; i < directions; ++i) {
         const auto [ux, uy] = direction(4.0 * i / directions);
-        const std::vector<Source> points = sources(edges.curved, w, ux, uy);
+        const std::vector<Source> points = sources(edges, all_junctions, w, ux, uy);
         for (int j = 1; j <= distances; ++j) {
             const double v = static_cast<double>(j) / distances, r = nearest_ / (v * v);
             const double k = r * source.pixel() / wavelength;
@@ -145,14 +158,18 @@ Halo::Halo(const FarSource &source, const PupilEdges &edges)
                     sum += 2 * seen * (amplitudes[a] * std::conj(amplitudes[b])).real();
                 }
             }
-            table_[static_cast<size_t>(i * (distances + 1) + j)] = scale * sum / (k * k) * r * r * r;
+            table_[static_cast<size_t>(i * (distances + 1) + j)] =
+                scale * sum / (k * k) * r * r * r;
         }
         const auto row = table_.begin() + i * (distances + 1);
         row[0] = row[1];
         most_ = std::max(most_, *std::max_element(row, row + distances + 1));
     }
     std::copy_n(table_.begin(), distances + 1, table_.end() - (distances + 1));
-    corners_ = 2 * static_cast<double>(edges.straight.size()) * source.mean_wavelength(2) /
+    const auto rounded = std::ranges::count_if(
+        all_junctions, [](const Junction &junction) { return junction.kink < 0.01; });
+    const auto sharp = 2 * static_cast<std::ptrdiff_t>(edges.straight.size()) - rounded;
+    corners_ = static_cast<double>(sharp) * source.mean_wavelength(2) /
                (8 * std::pow(pi, 4) * source.pixel() * source.pixel() * source.area());
 }
 
@@ -190,8 +207,8 @@ void Halo::add(const PixelRow &row, double floor) const {
         return;
     const double half = std::sqrt(square);
     const auto first = static_cast<int64_t>(std::ceil(std::max(0.0, -half - row.x)));
-    const auto last = static_cast<int64_t>(std::floor(
-        std::min(static_cast<double>(row.light.size()) - 1, half - row.x)));
+    const auto last = static_cast<int64_t>(
+        std::floor(std::min(static_cast<double>(row.light.size()) - 1, half - row.x)));
     if (first > last)
         return;
     const PixelRow part = row.part(first, last);

@@ -31,6 +31,18 @@ FarSource far_source(const Optics &optics, const Light &light, const PsfSettings
             nearest_pixel};
 }
 
+// The spectrum as a box of the same variance in 1 / wavelength.
+double fringes_per_pixel(const FarSource &source) {
+    double mean = 0, square = 0;
+    for (size_t q = 0; q < source.spectrum.size(); ++q) {
+        const double wavenumber = 1 / source.spectrum.wavelength[q];
+        mean += source.spectrum.weight[q] * wavenumber;
+        square += source.spectrum.weight[q] * wavenumber * wavenumber;
+    }
+    return source.optics.aperture->diameter() * source.pixel() *
+           std::sqrt(12 * (square - mean * mean));
+}
+
 } // namespace
 
 FarLight::FarLight(const Optics &optics, const Light &light, const PsfSettings &settings)
@@ -38,8 +50,8 @@ FarLight::FarLight(const Optics &optics, const Light &light, const PsfSettings &
                settings.mirrored ? -1 : 1) {}
 
 FarLight::FarLight(const FarSource &source, const PupilEdges &edges, double mirror)
-    : source_nearest_(source.nearest), mirror_(mirror), spikes_(make_spikes(source, edges)),
-      halo_(source, edges) {}
+    : nearest_(source.nearest), mirror_(mirror), fringes_per_pixel_(fringes_per_pixel(source)),
+      spikes_(make_spikes(source, edges)), halo_(source, edges) {}
 
 void FarLight::add(const PixelRow &row, double floor) const {
     halo_.add(row, floor);
@@ -57,10 +69,9 @@ double FarLight::at(double x, double y) const {
 }
 
 template <class T>
-void FarLight::add(const Star &star, double inner, double floor, View<T> image,
-                   int threads) const {
-    if (!(inner >= source_nearest_))
-        fail(WFPSF_ERROR_RANGE, "inner = %g: must be %g or more", inner, source_nearest_);
+void FarLight::add(const Star &star, double inner, double floor, View<T> image, int threads) const {
+    if (!(inner >= nearest_))
+        fail(WFPSF_ERROR_RANGE, "inner = %g: must be %g or more", inner, nearest_);
     if (!(floor > 0))
         fail(WFPSF_ERROR_RANGE, "floor = %g: must be above 0", floor);
     const double share = floor / star.flux;
@@ -97,11 +108,21 @@ double FarLight::brightest_beyond(double r) const {
     return most;
 }
 
+FarLight::Error FarLight::relative_error(double r) const {
+    // What is left of fringes between a spike and the halo.
+    const double fringes = fringes_per_pixel_ * r;
+    double brightest = 0;
+    for (const Spike &spike : spikes_.spikes)
+        brightest = std::max(brightest, spike.brightest(r));
+    const double visible = std::min(0.5, 0.02 + 0.7 / fringes);
+    return {visible * 2 * std::sqrt(halo_.brightest(r) / (brightest + halo_.brightest(r))),
+            std::min(0.5, 0.07 + 0.7 / fringes)};
+}
+
 std::vector<FarLight::Direction> FarLight::spikes(double r, double floor) const {
     std::vector<Direction> out;
     for (const Spike &spike : spikes_.spikes)
-        out.push_back(
-            {spike.axes().nx, mirror_ * spike.axes().ny, spike.half_width(r, floor)});
+        out.push_back({spike.axes().nx, mirror_ * spike.axes().ny, spike.half_width(r, floor)});
     return out;
 }
 

@@ -2,10 +2,10 @@
 #include "optics/far_spikes.hpp"
 
 #include "numerics/dispatch.hpp"
-#include "optics/fresnel.hpp"
 #include "numerics/phasor.hpp"
 #include "numerics/quadrature.hpp"
 #include "numerics/sinc.hpp"
+#include "optics/fresnel.hpp"
 
 #include <algorithm>
 #include <numbers>
@@ -86,10 +86,26 @@ double FarSource::mean_wavelength(int power) const {
 
 namespace {
 
+// 1 in the inner two thirds of -1..1, smoothly to 0 outside.
+[[gnu::always_inline]] inline double within(double t) {
+    const double s = std::clamp(3 * (1 - std::abs(t)), 0.0, 1.0);
+    return s * s * (3 - 2 * s);
+}
+
+// What is left of the light of an edge's end where an arc goes on from it smoothly, by the place of
+// the arc's point of stationary phase: the end's amplitude, 1 / (pi x), less Fresnel's tail.
+double rounded(double x) {
+    if (x < 1e-6)
+        return 1;
+    const auto tail = fresnel_tail(x) * pi * x;
+    return std::pow(tail.real(), 2) + std::pow(tail.imag() - 1, 2);
+}
+
 struct SpikeTable {
     SpikeAxes axes;
-    double scale, tail, per_pixel, reach;
+    double scale, tail, per_pixel, reach, fringe_reach, rounding;
     const double *constant, *slope; // at the position -reach
+    const double *rounded;
 };
 
 WFPSF_VECTORISED void add_spike(const SpikeTable &spike, double x0, double y, size_t n,
@@ -108,7 +124,14 @@ WFPSF_VECTORISED void add_spike(const SpikeTable &spike, double x0, double y, si
         const double in_table =
             cubic(s, spike.constant + cell) + inverse * cubic(s, spike.slope + cell);
         const double value = near ? in_table : spike.tail / square;
-        light[i] += spike.scale * inverse * inverse * value;
+        // Between the fringes' table and the rounding of the edge's ends.
+        const double x_of_arc = std::min(std::sqrt(spike.rounding * square / std::abs(along)),
+                                         Spike::rounded_size - 2.0);
+        const auto arc_cell = static_cast<int32_t>(x_of_arc);
+        const double *left = spike.rounded + arc_cell;
+        const double share = left[0] + (x_of_arc - arc_cell) * (left[1] - left[0]);
+        const double inner = within(across / spike.fringe_reach);
+        light[i] += spike.scale * inverse * inverse * value * (inner + (1 - inner) * share);
     }
 }
 
@@ -122,7 +145,7 @@ void Spike::add(const PixelRow &row, double floor) const {
     for (const double side : {-1.0, 1.0}) {
         add_roots(roots, -nx * ny, (nx * nx - ny * ny) * row.y,
                   nx * ny * row.y * row.y - side * product);
-        roots.push_back((side * farthest - ny * row.y) / nx);          // along = side * farthest
+        roots.push_back((side * farthest - ny * row.y) / nx);         // along = side * farthest
         roots.push_back(row.y * (nx - side * ny) / (ny + side * nx)); // across = side * along
     }
     const auto runs = accepted_runs(
@@ -131,8 +154,16 @@ void Spike::add(const PixelRow &row, double floor) const {
             const double across = std::abs(axes_.across(x, row.y));
             return along * across <= product && along <= farthest && across <= along;
         });
-    const SpikeTable table{axes_, scale_, tail_, per_pixel_, reach_, constant_.data() + 1,
-                           slope_.data() + 1};
+    const SpikeTable table{axes_,
+                           scale_,
+                           tail_,
+                           per_pixel_,
+                           reach_,
+                           fringe_reach_,
+                           rounding_,
+                           constant_.data() + 1,
+                           slope_.data() + 1,
+                           rounded_.data()};
     for (const Run &run : runs) {
         const PixelRow part = row.part(run.first, run.last);
         add_spike(table, part.x, part.y, part.light.size(), part.light.data());
@@ -165,8 +196,7 @@ WFPSF_VECTORISED void add_fringes(const FringeTable &fringes, double side, doubl
         const double x = x0 + static_cast<double>(i);
         const double along = side * (nx * x + ny * y), across = nx * y - ny * x;
         const double column = std::clamp(across * fringes.per_across + middle, 1.0, last_column);
-        const double row =
-            std::clamp((along - fringes.nearest) * fringes.per_along + 1, 1.0, last);
+        const double row = std::clamp((along - fringes.nearest) * fringes.per_along + 1, 1.0, last);
         const auto j = static_cast<int32_t>(row), c = static_cast<int32_t>(column);
         const double s = column - c, t = row - j;
         const double *entry = fringes.table + j * fringes.columns + c;
@@ -189,19 +219,19 @@ void Fringes::add(const PixelRow &row, double floor) const {
         for (const double end : {nearest_, farthest})
             roots.push_back((side * end - ny * row.y) / nx);
     }
-    const auto runs = accepted_runs(
-        std::move(roots), row.x, static_cast<int64_t>(row.light.size()), [&](double x) {
-            const double along = std::abs(axes_.along(x, row.y));
-            return std::abs(axes_.across(x, row.y)) <= reach && along <= farthest &&
-                   along >= nearest_;
-        });
+    const auto runs = accepted_runs(std::move(roots), row.x, static_cast<int64_t>(row.light.size()),
+                                    [&](double x) {
+                                        const double along = std::abs(axes_.along(x, row.y));
+                                        return std::abs(axes_.across(x, row.y)) <= reach &&
+                                               along <= farthest && along >= nearest_;
+                                    });
     for (const Run &run : runs) {
         const PixelRow part = row.part(run.first, run.last);
         const double middle = part.x + static_cast<double>(part.light.size() - 1) / 2;
         const bool behind = axes_.along(middle, part.y) < 0;
-        add_fringes({axes_, nearest_, per_along_, per_across_, rows_, columns_,
-                     table_[behind].data()},
-                    behind ? -1 : 1, part.x, part.y, part.light.size(), part.light.data());
+        add_fringes(
+            {axes_, nearest_, per_along_, per_across_, rows_, columns_, table_[behind].data()},
+            behind ? -1 : 1, part.x, part.y, part.light.size(), part.light.data());
     }
 }
 
@@ -265,6 +295,7 @@ struct ArcEnd {
     double x, y;    // of the end, m
     double tangent; // +1: the edge runs along the axes' across, -1: against it
     double radius;  // of curvature; negative: the light is on the outside
+    bool smooth;    // without a kink
 };
 
 // exp(-i pi x^2 / 2) times Fresnel's integral from x to infinity: an arc's amplitude by where its
@@ -295,10 +326,10 @@ class ArcWave {
 
 // An edge and its integrals by colour and position across the spike.
 struct EdgeWaves {
-    SpikeAxes axes; // along the outward normal
-    double x, y, length; // middle, m
+    SpikeAxes axes;                     // along the outward normal
+    double x, y, length;                // middle, m
     std::vector<Waves> constant, slope; // of 1 and of W_n
-    std::vector<ArcEnd> arcs;
+    std::vector<ArcEnd> arcs = {};
 };
 
 } // namespace
@@ -307,33 +338,42 @@ class SpikeTables {
   public:
     SpikeTables(const FarSource &source, const PupilEdges &edges)
         : source_(source), step_(0.25 / std::max(1.0, source.bandwidth())) {
-        for (const StraightEdge &edge : edges.straight) {
+        for (const StraightEdge &edge : edges.straight)
             edges_.push_back(waves(edge));
-            add_arcs(edges_.back(), edge, edges.curved);
-        }
+        for (const Junction &junction : junctions(edges))
+            if (junction.kink < widest_kink)
+                add_arc(edges_[junction.straight], edges.curved[junction.curved], junction);
     }
 
     Spikes spikes() const {
         Spikes out;
         for (const EdgeWaves &edge : edges_)
             out.spikes.push_back(spike(edge));
+        for (const EdgeWaves &edge : edges_)
+            if (!edge.arcs.empty())
+                out.fringes.push_back(fringes({&edge}));
         for (const std::vector<const EdgeWaves *> &group : groups())
-            if (group.size() > 1 || !group[0]->arcs.empty())
+            if (group.size() > 1)
                 out.fringes.push_back(fringes(group));
         return out;
     }
 
   private:
-    static constexpr std::ptrdiff_t half = 256;          // of a profile, steps
-    static constexpr std::ptrdiff_t filter_half = 20;    // of the pixel's filter, steps
+    static constexpr std::ptrdiff_t half = 256;       // of a profile, steps
+    static constexpr std::ptrdiff_t filter_half = 20; // of the pixel's filter, steps
     static constexpr std::ptrdiff_t wide = half + 1 + filter_half;
-    static constexpr double widest_group = 7 * pi / 180; // between neighbours in a group
+    static constexpr double widest_group = 7 * pi / 180;      // between neighbours in a group
+    static constexpr double widest_kink = 0.2, smooth = 0.01; // radians
 
     EdgeWaves waves(const StraightEdge &edge) const {
         const double dx = edge.to_x - edge.from_x, dy = edge.to_y - edge.from_y;
         const double length = std::hypot(dx, dy);
-        EdgeWaves out{{dy / length, -dx / length}, (edge.from_x + edge.to_x) / 2,
-                      (edge.from_y + edge.to_y) / 2, length, {}, {}};
+        EdgeWaves out{{dy / length, -dx / length},
+                      (edge.from_x + edge.to_x) / 2,
+                      (edge.from_y + edge.to_y) / 2,
+                      length,
+                      {},
+                      {}};
         const auto &[nx, ny] = out.axes;
         for (const double wavelength : source_.spectrum.wavelength) {
             const Wavefront w = source_.wavefront(wavelength);
@@ -358,43 +398,26 @@ class SpikeTables {
         return out;
     }
 
-    // Arcs that begin where the edge ends.
-    static void add_arcs(EdgeWaves &out, const StraightEdge &edge,
-                         const std::vector<CurvedEdge> &curved) {
-        constexpr double together = 1e-5, widest_kink = 0.2; // m, radians
-        for (const CurvedEdge &arc : curved)
-            for (const double side : {1.0, -1.0}) {
-                if (arc.closed())
-                    continue;
-                const Oval &o = arc.oval;
-                const double a = side > 0 ? arc.begin : arc.end, u = std::cos(a), v = std::sin(a);
-                const double x = o.x + o.half_width * u;
-                const double y = o.y + o.shear * u + o.half_height * v;
-                const double dx = -side * o.half_width * v;
-                const double dy = side * (o.half_height * u - o.shear * v);
-                const double speed = std::hypot(dx, dy), tx = dx / speed, ty = dy / speed;
-                const bool at_from = std::hypot(x - edge.from_x, y - edge.from_y) < together;
-                const bool at_to = std::hypot(x - edge.to_x, y - edge.to_y) < together;
-                // Across runs from `from` to `to`.
-                const double onwards = (at_to ? 1 : -1) * out.axes.across(tx, ty);
-                if (!(at_from || at_to) || onwards < std::cos(widest_kink))
-                    continue;
-                const double turn = at_to ? 1 : -1;
-                const SpikeAxes normal{turn * ty, -turn * tx};
-                const double bend = normal.along(x - o.x, y - o.y);
-                out.arcs.push_back({normal, x, y, turn,
-                                    std::copysign(speed * speed * speed /
-                                                      (o.half_width * o.half_height),
-                                                  bend)});
-            }
+    static void add_arc(EdgeWaves &edge, const CurvedEdge &arc, const Junction &junction) {
+        const Oval &o = arc.oval;
+        const double a = junction.at_begin ? arc.begin : arc.end;
+        const double u = std::cos(a), v = std::sin(a), way = junction.at_begin ? 1 : -1;
+        const double x = o.half_width * u, y = o.shear * u + o.half_height * v;
+        const double dx = -way * o.half_width * v;
+        const double dy = way * (o.half_height * u - o.shear * v);
+        const double speed = std::hypot(dx, dy), tangent = junction.at_to ? 1 : -1;
+        const SpikeAxes normal{tangent * dy / speed, -tangent * dx / speed};
+        const double radius = std::pow(speed, 3) / (o.half_width * o.half_height);
+        edge.arcs.push_back({normal, o.x + x, o.y + y, tangent,
+                             std::copysign(radius, normal.along(x, y)), junction.kink < smooth});
     }
 
     // The pixel and the blur across a spike, for waves up to the bandwidth.
     std::vector<double> filter(const SpikeAxes &axes, double step) const {
         const auto &[nx, ny] = axes;
         const Covariance &blur = source_.settings.blur;
-        const double variance = blur.xx * ny * ny - 2 * blur.xy * mirror() * nx * ny +
-                                blur.yy * nx * nx;
+        const double variance =
+            blur.xx * ny * ny - 2 * blur.xy * mirror() * nx * ny + blur.yy * nx * nx;
         const double highest = 0.5 / step;
         const GaussLegendre rule(64);
         std::vector<double> taps(2 * filter_half + 1);
@@ -412,14 +435,15 @@ class SpikeTables {
         }
         return taps;
     }
+    double fringe_reach() const { return 96 * step_; }
     double mirror() const { return source_.settings.mirrored ? -1 : 1; }
 
     static std::vector<double> filtered(const std::vector<double> &values,
                                         const std::vector<double> &taps) {
         std::vector<double> out(values.size() - taps.size() + 1);
         for (size_t i = 0; i < out.size(); ++i)
-            out[i] = std::inner_product(taps.begin(), taps.end(), values.begin() +
-                                        static_cast<std::ptrdiff_t>(i), 0.0);
+            out[i] = std::inner_product(taps.begin(), taps.end(),
+                                        values.begin() + static_cast<std::ptrdiff_t>(i), 0.0);
         return out;
     }
 
@@ -443,6 +467,17 @@ class SpikeTables {
         out.tail_ = source_.mean_wavelength(2) / (2 * pi * pi * std::pow(source_.pixel(), 2));
         out.per_pixel_ = 1 / step_;
         out.reach_ = static_cast<double>(half) * step_;
+        out.fringe_reach_ = fringe_reach();
+        // Mean over the edge's two ends; entries `per_unit` to a unit of x.
+        constexpr double per_unit = 32;
+        out.rounded_.assign(Spike::rounded_size, 1);
+        for (const ArcEnd &arc : edge.arcs)
+            if (arc.smooth) {
+                out.rounding_ = per_unit * per_unit * 2 * std::abs(arc.radius) * source_.pixel() /
+                                source_.mean_wavelength();
+                for (size_t j = 0; j < Spike::rounded_size; ++j)
+                    out.rounded_[j] -= (1 - rounded(static_cast<double>(j) / per_unit)) / 2;
+            }
         out.most_ = std::ranges::max(constant);
         out.constant_ = std::move(constant);
         out.slope_ = std::move(slope);
@@ -460,17 +495,15 @@ class SpikeTables {
         std::ranges::sort(sorted, {}, direction);
         std::vector<std::vector<const EdgeWaves *>> groups;
         for (const EdgeWaves *edge : sorted) {
-            if (groups.empty() ||
-                direction(edge) - direction(groups.back().back()) > widest_group)
+            if (groups.empty() || direction(edge) - direction(groups.back().back()) > widest_group)
                 groups.emplace_back();
             groups.back().push_back(edge);
         }
         // Directions meet again after half a turn.
-        if (groups.size() > 1 && direction(groups.front().front()) + pi -
-                                         direction(groups.back().back()) <
-                                     widest_group) {
-            groups.front().insert(groups.front().end(), groups.back().begin(),
-                                  groups.back().end());
+        if (groups.size() > 1 &&
+            direction(groups.front().front()) + pi - direction(groups.back().back()) <
+                widest_group) {
+            groups.front().insert(groups.front().end(), groups.back().begin(), groups.back().end());
             groups.pop_back();
         }
         return groups;
@@ -506,27 +539,22 @@ class SpikeTables {
         out.nearest_ = source_.nearest;
         out.per_along_ = 1 / along_step;
         out.per_across_ = 1 / step;
-        out.rows_ = static_cast<int64_t>(
-            std::clamp((end - out.nearest_) / along_step + 4, 8.0, most_rows));
-        const auto across = static_cast<std::ptrdiff_t>(96 / steps);
+        out.rows_ =
+            static_cast<int64_t>(std::clamp((end - out.nearest_) / along_step + 4, 8.0, most_rows));
+        const auto across = static_cast<std::ptrdiff_t>(fringe_reach() / step);
         out.columns_ = 2 * across + 1;
         const std::vector<double> taps = filter(out.axes_, step);
         out.most_ = 0;
         for (const int side : {0, 1}) {
             std::vector<double> &table = out.table_[static_cast<size_t>(side)];
             for (int64_t row = 0; row < out.rows_; ++row) {
-                const double along = (side ? -1 : 1) *
-                                     (out.nearest_ + static_cast<double>(row - 1) * along_step);
-                std::vector<double> values = filtered(
-                    together(group, out.axes_, along, across + filter_half, step), taps);
-                // Nothing begins abruptly.
-                for (std::ptrdiff_t j = 0; j < across / 3; ++j) {
-                    const double share = std::pow(
-                        std::sin(pi / 2 * static_cast<double>(j) / static_cast<double>(across / 3)),
-                        2);
-                    values[static_cast<size_t>(j)] *= share;
-                    values[values.size() - 1 - static_cast<size_t>(j)] *= share;
-                }
+                const double along =
+                    (side ? -1 : 1) * (out.nearest_ + static_cast<double>(row - 1) * along_step);
+                std::vector<double> values =
+                    filtered(together(group, out.axes_, along, across + filter_half, step), taps);
+                for (std::ptrdiff_t j = -across; j <= across; ++j)
+                    values[static_cast<size_t>(j + across)] *=
+                        within(static_cast<double>(j) * step / fringe_reach());
                 for (const double value : values)
                     out.most_ = std::max(out.most_, std::abs(value));
                 table.insert(table.end(), values.begin(), values.end());
@@ -535,13 +563,12 @@ class SpikeTables {
         return out;
     }
 
-    // Light at -half..half steps across beyond the sum of the members', times the distance's
+    // Light at -reach..reach steps across beyond the sum of the members', times the distance's
     // square.
-    std::vector<double> together(const std::vector<const EdgeWaves *> &group,
-                                 const SpikeAxes &axes, double along, std::ptrdiff_t half,
-                                 double step) const {
-        const auto n = static_cast<size_t>(2 * half + 1);
-        const double first = -static_cast<double>(half) * step;
+    std::vector<double> together(const std::vector<const EdgeWaves *> &group, const SpikeAxes &axes,
+                                 double along, std::ptrdiff_t reach, double step) const {
+        const auto n = static_cast<size_t>(2 * reach + 1);
+        const double first = -static_cast<double>(reach) * step;
         const double x0 = axes.nx * along - axes.ny * first, y0 = axes.ny * along + axes.nx * first;
         const double dx = -axes.ny * step, dy = axes.nx * step;
         std::vector<double> sum(n), factor(n);
@@ -549,17 +576,18 @@ class SpikeTables {
             const double wavelength = source_.spectrum.wavelength[q];
             const double per_metre = source_.pixel() / wavelength;
             const Wavefront w = source_.wavefront(wavelength);
-            Row row(n);
-            const auto add = [&](const Waves &wave, const SpikeAxes &own, Ramp position, double px,
-                                 double py, double phase, double scale) {
+            Row row(n), own(n);
+            const auto add = [&](const Waves &wave, const SpikeAxes &facing, Ramp position,
+                                 double px, double py, double phase, double scale) {
                 for (size_t j = 0; j < n; ++j) {
                     const double x = x0 + dx * static_cast<double>(j);
                     const double y = y0 + dy * static_cast<double>(j);
-                    factor[j] = scale * own.along(x, y) / (x * x + y * y);
+                    factor[j] = scale * facing.along(x, y) / (x * x + y * y);
                 }
-                add_member(wave, position,
-                           {phase + per_metre * (x0 * px + y0 * py), per_metre * (dx * px + dy * py)},
-                           factor, row);
+                add_member(
+                    wave, position,
+                    {phase + per_metre * (x0 * px + y0 * py), per_metre * (dx * px + dy * py)},
+                    factor, own);
             };
             for (const EdgeWaves *e : group) {
                 const double k_n = e->axes.along(axes.nx, axes.ny) * along * per_metre;
@@ -576,14 +604,23 @@ class SpikeTables {
                     const double normal = arc.axes.along(axes.nx, axes.ny) * along * per_metre;
                     const double bend = std::abs(normal / arc.radius);
                     const bool conjugate = normal * arc.radius > 0;
-                    const double per_across = (conjugate ? -1 : 1) * arc.tangent * per_metre *
-                                              std::sqrt(2 / bend);
+                    const double per_across =
+                        (conjugate ? -1 : 1) * arc.tangent * per_metre * std::sqrt(2 / bend);
                     const double start = per_across * arc.axes.across(x0, y0);
                     const double turn = per_across * arc.axes.across(dx, dy);
                     add(ArcWave::get().of(conjugate), arc.axes,
-                        {ArcWave::position(start), ArcWave::position(start + turn) -
-                                                       ArcWave::position(start)},
+                        {ArcWave::position(start),
+                         ArcWave::position(start + turn) - ArcWave::position(start)},
                         arc.x, arc.y, w(arc.x, arc.y), 1 / std::sqrt(2 * bend));
+                }
+                // Of one edge: what it makes with its arcs. Of a group: what its edges make.
+                for (size_t j = 0; j < n; ++j) {
+                    row.re[j] += own.re[j];
+                    row.im[j] += own.im[j];
+                    row.each[j] += group.size() == 1
+                                       ? own.each[j]
+                                       : own.re[j] * own.re[j] + own.im[j] * own.im[j];
+                    own.re[j] = own.im[j] = own.each[j] = 0;
                 }
             }
             for (size_t j = 0; j < n; ++j)

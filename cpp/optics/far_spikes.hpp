@@ -55,6 +55,8 @@ struct PixelRow {
 // The light of one edge by itself, within 45 degrees of the spike; what is left is no spike.
 class Spike {
   public:
+    static constexpr size_t rounded_size = 256;
+
     const SpikeAxes &axes() const { return axes_; }
 
     // Adds fractions of the light, where they may be above the floor.
@@ -68,13 +70,17 @@ class Spike {
   private:
     friend class SpikeTables;
     SpikeAxes axes_{};
-    double scale_ = 0;    // of the light
-    double tail_ = 0;     // beyond the table: over the square of the distance across
-    double most_ = 0;     // in the table
+    double scale_ = 0;     // of the light
+    double tail_ = 0;      // beyond the table: over the square of the distance across
+    double most_ = 0;      // in the table
     double per_pixel_ = 0; // table entries
-    double reach_ = 0;    // of the table, native pixels
+    double reach_ = 0;     // of the table, native pixels
     // By position across: what is the same at all distances along, and what goes as their inverse.
     std::vector<double> constant_, slope_;
+    // What arcs at the ends leave of the light outside the fringes' table, by sqrt(rounding
+    // across^2 / along).
+    double fringe_reach_ = 0, rounding_ = 0;
+    std::vector<double> rounded_;
 };
 
 // What edges in about one direction make together beyond the sum of each: the fringes of a strut's

@@ -135,8 +135,8 @@ void add(PupilEdges &edges, const HalfPlane &h, double begin, double end, bool l
     const Point a = at(h, lit_left ? begin : end), b = at(h, lit_left ? end : begin);
     edges.straight.push_back({a.x, a.y, b.x, b.y});
 }
-void add(PupilEdges &edges, const Oval &o, double begin, double end, bool) {
-    edges.curved.push_back({o, begin, end});
+void add(PupilEdges &edges, const Oval &o, double begin, double end, bool lit_left) {
+    edges.curved.push_back({o, begin, end, lit_left});
 }
 
 // The parts between cuts that light meets dark at; those that go on with each other are one.
@@ -159,8 +159,7 @@ void add_pieces(PupilEdges &edges, const LitPart &part, const Curve &curve,
                          static_cast<int>(lit(part, {p.x - left.x, p.y - left.y}));
         if (side == 0)
             continue;
-        if (!pieces.empty() && pieces.back().side == side &&
-            cuts[i] - pieces.back().end < shortest)
+        if (!pieces.empty() && pieces.back().side == side && cuts[i] - pieces.back().end < shortest)
             pieces.back().end = cuts[i + 1];
         else
             pieces.push_back({cuts[i], cuts[i + 1], side});
@@ -196,6 +195,30 @@ PupilEdges pupil_edges(const std::vector<LitPart> &parts) {
         }
     }
     return edges;
+}
+
+std::vector<Junction> junctions(const PupilEdges &edges) {
+    constexpr double together = 1e-5; // m
+    std::vector<Junction> out;
+    for (size_t c = 0; c < edges.curved.size(); ++c)
+        for (const bool at_begin : {true, false}) {
+            const CurvedEdge &curved = edges.curved[c];
+            if (curved.closed())
+                continue;
+            const double angle = at_begin ? curved.begin : curved.end;
+            const Point p = at(curved.oval, angle), s = slope(curved.oval, angle);
+            for (size_t l = 0; l < edges.straight.size(); ++l) {
+                const auto &[from_x, from_y, to_x, to_y] = edges.straight[l];
+                const bool at_to = std::hypot(p.x - to_x, p.y - to_y) < together;
+                if (!at_to && std::hypot(p.x - from_x, p.y - from_y) >= together)
+                    continue;
+                const double onwards = at_to == at_begin ? 1 : -1;
+                const double x = onwards * (to_x - from_x), y = onwards * (to_y - from_y);
+                const double kink = std::abs(std::atan2(x * s.y - y * s.x, x * s.x + y * s.y));
+                out.push_back({l, c, at_to, at_begin, kink});
+            }
+        }
+    return out;
 }
 
 } // namespace wfpsf

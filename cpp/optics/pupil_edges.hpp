@@ -4,6 +4,7 @@
 
 #include "optics/pupil_raster.hpp"
 
+#include <cstddef>
 #include <numbers>
 #include <vector>
 
@@ -18,6 +19,7 @@ struct StraightEdge {
 struct CurvedEdge {
     Oval oval;
     double begin, end;
+    bool lit_inside;
     bool closed() const { return end - begin > 2 * std::numbers::pi - 1e-9; }
 };
 
@@ -25,6 +27,14 @@ struct PupilEdges {
     std::vector<StraightEdge> straight;
     std::vector<CurvedEdge> curved;
 };
+
+// Where a curved edge goes on from an end of a straight one.
+struct Junction {
+    size_t straight, curved;
+    bool at_to, at_begin; // which end of either
+    double kink;          // radians that the edge turns by, 0..pi
+};
+std::vector<Junction> junctions(const PupilEdges &edges);
 
 PupilEdges pupil_edges(const std::vector<LitPart> &parts);
 

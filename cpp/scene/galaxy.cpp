@@ -26,15 +26,17 @@ int64_t size_for(double samples) {
     return sizes.back();
 }
 
-// A galaxy that needs more pixels is a sum over levels. Level l holds wave numbers around
-// split / ratio^l, on a grid of ratio^l pixels. The step from one level to the next is a smooth
-// one, so that a level's light lies within most_pixels / 2 steps of the centre, but for 1e-6: with
-// a Gaussian's integral of width split / (2 sharpness) that takes sharpness^2 = -log(1e-6) pi
-// split / ...
+// A galaxy that needs more pixels is a sum over levels. Level l holds the wave numbers from about
+// split / ratio^l on that lower levels do not, on a grid of ratio^l pixels. One level goes over
+// into the next like a Gaussian's integral: at k of relative width 1 / sharpness about the split,
+// which leaves 1e-6 at twice the split and at zero, and 1e-6 of the light of that level beyond
+// most_pixels / 2 steps from the centre.
 constexpr int64_t ratio = 8;
 constexpr double sharpness = 3.3;
 constexpr double split = 3.9 / (static_cast<double>(most_pixels) / 2); // cycles per pixel
 constexpr double band = 2 * split * ratio; // cycles per sample, that a coarse grid holds
+
+constexpr double farthest = 1e9; // pixels, that a galaxy is drawn to
 
 int64_t step_of(int level) {
     int64_t step = 1;
@@ -43,19 +45,10 @@ int64_t step_of(int level) {
     return step;
 }
 
-// The share of the wave numbers k that levels above `level` hold.
-double beyond(double k, int level) {
+// The share of wave number k that is left to levels above `level`.
+double left_by(int level, double k) {
     const double relative = k / split * static_cast<double>(step_of(level));
     return relative >= 2 ? 0 : std::erfc(sharpness * (relative - 1)) / 2;
-}
-
-double share_of(double k, int level, bool top) {
-    return (level == 0 ? 1 : beyond(k, level - 1)) - (top ? 0 : beyond(k, level));
-}
-
-const BandlimitedInterpolator &interpolator() {
-    static const BandlimitedInterpolator it(band, 1e-7);
-    return it;
 }
 
 // The largest value on the frame `margin` samples inside.
@@ -63,8 +56,8 @@ double largest_on_frame(View<const double> samples, int64_t margin) {
     const int64_t last = samples.nx - 1 - margin;
     double most = 0;
     for (int64_t i = margin; i <= last; ++i)
-        for (const double value : {samples(i, margin), samples(i, last), samples(margin, i),
-                                   samples(last, i)})
+        for (const double value :
+             {samples(i, margin), samples(i, last), samples(margin, i), samples(last, i)})
             most = std::max(most, std::abs(value));
     return most;
 }
@@ -95,29 +88,45 @@ Transfer transfer_of(const Otf &otf, double pixel_scale) {
 
 struct GalaxyDrawer::Shape {
     const Sersic &profile;
-    double radius;           // half-light, pixels
-    double longest;          // half axis of the half-light ellipse, pixels
-    double xx, xy, yy;       // of the wave form
-    double flux;             // |flux|
-    double wave(double k) const { return 2 * pi * radius * (radius / longest) * k; } // smallest
-    double density() const { return flux / (2 * pi * radius * radius); }
+    double radius;          // half-light, pixels
+    double longest;         // half axis of the half-light ellipse, pixels
+    double xx, xy, yy;      // of the wave form
+    double x, y, flux;      // as the galaxy's
+    int64_t x0 = 0, y0 = 0; // the nearest pixel
+
+    // The argument of the profile's transform at wave numbers k: the smallest, the largest.
+    double lowest(double k) const { return 2 * pi * radius * (radius / longest) * k; }
+    double highest(double k) const { return 2 * pi * longest * k; }
+    // Integrals of |F| over the plane of the image's k are those of |F| k dk times that.
+    double density() const { return std::abs(flux) / (2 * pi * radius * radius); }
+};
+
+struct GalaxyDrawer::Level {
+    int number;
+    bool top;
+    double samples; // that it needs
+    int64_t step() const { return step_of(number); }
+    double share(double k) const {
+        return (number == 0 ? 1 : left_by(number - 1, k)) - (top ? 0 : left_by(number, k));
+    }
 };
 
 GalaxyDrawer::GalaxyDrawer(Transfer transfer, double pixel_scale, SersicProfiles &profiles)
-    : transfer_(std::move(transfer)), pixel_scale_(pixel_scale), profiles_(profiles) {}
+    : transfer_(std::move(transfer)), pixel_scale_(pixel_scale), profiles_(profiles),
+      interpolator_(band, 1e-7) {}
 
 GalaxyDrawer::Shape GalaxyDrawer::shape_of(const Galaxy &galaxy) {
-    for (const auto &[name, value] : {std::pair("x", galaxy.x), std::pair("y", galaxy.y),
-                                      std::pair("flux", galaxy.flux)})
+    for (const auto &[name, value] :
+         {std::pair("x", galaxy.x), std::pair("y", galaxy.y), std::pair("flux", galaxy.flux)})
         if (!std::isfinite(value))
             fail(WFPSF_ERROR_NOT_FINITE, "galaxy %s = %g: must be finite", name, value);
-    if (!(galaxy.half_light_radius > 0 && galaxy.half_light_radius < 1e6))
-        fail(WFPSF_ERROR_RANGE, "galaxy half_light_radius = %g arcsec: must be > 0 and < 1e6",
-             galaxy.half_light_radius);
+    if (!(galaxy.half_light_radius > 0 && galaxy.half_light_radius <= Galaxy::largest_radius))
+        fail(WFPSF_ERROR_RANGE, "galaxy half_light_radius = %g arcsec: must be > 0 and <= %g",
+             galaxy.half_light_radius, Galaxy::largest_radius);
     const double e = std::hypot(galaxy.e1, galaxy.e2);
-    if (!(e < 1))
-        fail(WFPSF_ERROR_RANGE, "galaxy ellipticity (e1, e2) = (%g, %g): |e| must be < 1",
-             galaxy.e1, galaxy.e2);
+    if (!(e <= Galaxy::largest_ellipticity))
+        fail(WFPSF_ERROR_RANGE, "galaxy (e1, e2) = (%g, %g): |e| must be <= %g", galaxy.e1,
+             galaxy.e2, Galaxy::largest_ellipticity);
     const double radius = galaxy.half_light_radius / pixel_scale_;
     const double scale = 4 * pi * pi * radius * radius / (1 - e * e);
     return {profiles_.of(galaxy.sersic_index),
@@ -126,16 +135,18 @@ GalaxyDrawer::Shape GalaxyDrawer::shape_of(const Galaxy &galaxy) {
             scale * (1 + e * e + 2 * galaxy.e1),
             scale * 2 * galaxy.e2,
             scale * (1 + e * e - 2 * galaxy.e1),
-            std::abs(galaxy.flux)};
+            galaxy.x,
+            galaxy.y,
+            galaxy.flux};
 }
 
-const GalaxyGrid &GalaxyDrawer::grid(int64_t size, int level, bool top) {
-    const std::array<int64_t, 3> key{size, level, top};
+const GalaxyGrid &GalaxyDrawer::grid(const Level &level, int64_t size) {
+    const std::array<int64_t, 3> key{level.number, level.top, size};
     auto found = grids_.find(key);
     if (found == grids_.end())
         found = grids_
-                    .try_emplace(key, transfer_, size, step_of(level),
-                                 [=](double k) { return share_of(k, level, top); })
+                    .try_emplace(key, transfer_, size, level.step(),
+                                 [&](double k) { return level.share(k); })
                     .first;
     return found->second;
 }
@@ -143,7 +154,7 @@ const GalaxyGrid &GalaxyDrawer::grid(int64_t size, int level, bool top) {
 // From transforms of a size whose folds hardly matter.
 void GalaxyDrawer::measure_psf() {
     constexpr int64_t size = 96;
-    const GalaxyGrid &all = grid(size, 0, true);
+    const GalaxyGrid &all = grid({0, true, size}, size);
     curvature_ = all.curvature();
     const SersicTable &gaussian = profiles_.of(0.5).table();
     for (const double radius : {1e-9, 1.0, 2.0, 4.0, 8.0}) {
@@ -169,7 +180,7 @@ double GalaxyDrawer::reach(const Shape &shape, double tolerance) {
         return 0;
     if (wings_.empty())
         measure_psf();
-    const double part = tolerance / shape.flux;
+    const double part = tolerance / std::abs(shape.flux);
     const double core = shape.radius * shape.radius / shape.longest / (2 * shape.profile.index());
     const auto blur = static_cast<size_t>(std::clamp(std::ilogb(core) + 1, 0, 4));
     const std::vector<double> &wings = wings_[blur];
@@ -179,7 +190,7 @@ double GalaxyDrawer::reach(const Shape &shape, double tolerance) {
         far = static_cast<double>(wings.size() - 1) * std::sqrt(wings.back() / part);
     const double profile =
         shape.longest * shape.profile.radius_of(part * shape.radius * shape.radius);
-    return std::max(profile + 1, far);
+    return std::min(std::max(profile + 1, far), farthest);
 }
 
 double GalaxyDrawer::radius(const Galaxy &galaxy, double tolerance) {
@@ -194,118 +205,137 @@ bool GalaxyDrawer::is_point_like(const Galaxy &galaxy, double tolerance) {
     if (wings_.empty())
         measure_psf();
     const double square = shape.longest * shape.longest * shape.profile.mean_square_radius();
-    return shape.flux * pi * pi * square * curvature_ <= tolerance;
+    return std::abs(shape.flux) * pi * pi * square * curvature_ <= tolerance;
 }
 
 // Of the light of a level in any pixel.
-double GalaxyDrawer::level_bound(const Shape &shape, int level, bool top) const {
+double GalaxyDrawer::bound(const Shape &shape, const Level &level) const {
     const SersicTable &table = shape.profile.table();
-    const double least = split / static_cast<double>(step_of(level));
-    const double most = level == 0 ? transfer_.cutoff * std::numbers::sqrt2
-                                   : 2 * split / static_cast<double>(step_of(level - 1));
-    constexpr int parts = 16; // of the range where levels meet
-    double sum = 0;
-    const double longest = shape.longest / shape.radius;
-    const double end = std::sqrt(table.highest());
+    const double meeting = 2 * split / static_cast<double>(level.step());
+    const double cutoff = transfer_.cutoff * std::numbers::sqrt2;
+    const double most = level.number == 0 ? cutoff : std::min(cutoff, ratio * meeting);
+    constexpr int parts = 16; // of the range where it meets the next level
+    double sum = table.absolute_integral(shape.lowest(meeting), shape.highest(most));
     for (int i = 0; i < parts; ++i) {
-        const double from = least * 2 * i / parts, to = least * 2 * (i + 1) / parts;
-        sum += (top ? 1 : 1 - beyond(to, level)) *
-               table.absolute_integral(shape.wave(from), std::min(shape.wave(to), end));
+        const double from = meeting * i / parts, to = meeting * (i + 1) / parts;
+        sum += (level.top ? 1 : 1 - left_by(level.number, to)) *
+               table.absolute_integral(shape.lowest(from), shape.lowest(to));
     }
-    return shape.density() *
-           (sum + table.absolute_integral(shape.wave(2 * least),
-                                          std::min(shape.wave(most) * longest * longest, end)));
+    return shape.density() * sum;
+}
+
+// Where the profile's transform may end so that all that is left out gives no pixel more than
+// `tolerance`.
+double GalaxyDrawer::highest_wave(const Shape &shape, double tolerance) const {
+    const SersicTable &table = shape.profile.table();
+    const double end = shape.highest(transfer_.cutoff * std::numbers::sqrt2);
+    double fails = 0, serves = end;
+    for (int i = 0; i < 10; ++i) {
+        const double middle = std::sqrt(std::max(fails, 1e-3 * serves) * serves);
+        const bool serve = shape.density() * table.absolute_integral(middle, end) <= tolerance;
+        (serve ? serves : fails) = middle;
+    }
+    return serves;
+}
+
+// The samples' frame tells what folds back from outside and what is left out there: where that is
+// too much there must be more of them.
+GalaxyDrawer::Samples GalaxyDrawer::sample(const Shape &shape, const Level &level,
+                                           const WaveForm &form, double tolerance) {
+    const int64_t margin = level.number == 0 ? 0 : interpolator_.half_width();
+    for (int64_t size = size_for(level.samples);; size = size_for(static_cast<double>(size + 1))) {
+        const View<double> values =
+            grid(level, size)
+                .draw(shape.profile.table(), form, shape.x - static_cast<double>(shape.x0),
+                      shape.y - static_cast<double>(shape.y0), shape.flux, buffers_);
+        const double on_frame = largest_on_frame(values, margin);
+        if (on_frame < tolerance || size == sizes.back())
+            return {values, on_frame};
+    }
+}
+
+template <class T>
+double GalaxyDrawer::add_pixels(const Shape &shape, View<double> values, View<T> image) {
+    const int64_t half = values.nx / 2;
+    const Range x = overlap(shape.x0, half, half - 1, image.nx);
+    const Range y = overlap(shape.y0, half, half - 1, image.ny);
+    double light = 0;
+    for (int64_t j = y.first; j <= y.last; ++j)
+        for (int64_t i = x.first; i <= x.last; ++i) {
+            const double value = values(i - shape.x0 + half, j - shape.y0 + half);
+            image(i, j) += static_cast<T>(value);
+            light += value;
+        }
+    return light;
+}
+
+template <class T>
+double GalaxyDrawer::add_between(const Shape &shape, int64_t step, View<double> values,
+                                 View<T> image) {
+    constexpr int64_t rows = 64; // at a time
+    const int64_t half = values.nx / 2;
+    const int64_t edge = (half - 1 - interpolator_.half_width()) * step;
+    const Range x = overlap(shape.x0, edge, edge, image.nx);
+    const Range y = overlap(shape.y0, edge, edge, image.ny);
+    if (x.empty() || y.empty())
+        return 0;
+    const auto places = [=](int64_t centre, int64_t first, int64_t count) {
+        return Positions{static_cast<double>(half) -
+                             static_cast<double>(centre) / static_cast<double>(step),
+                         first, count, 1, step};
+    };
+    double light = 0;
+    for (int64_t first = y.first; first <= y.last; first += rows) {
+        const int64_t count = std::min(rows, y.last - first + 1);
+        if (strip_.nx() != x.count() || strip_.ny() != count)
+            strip_ = Plane<double>::unset(x.count(), count);
+        resample<double>(values, interpolator_, places(shape.x0, x.first, x.count()),
+                         places(shape.y0, first, count), 1, strip_.view());
+        for (int64_t j = 0; j < count; ++j)
+            for (int64_t i = 0; i < x.count(); ++i) {
+                image(x.first + i, first + j) += static_cast<T>(strip_(i, j));
+                light += strip_(i, j);
+            }
+    }
+    return light;
 }
 
 template <class T>
 GalaxyDrawer::Drawn GalaxyDrawer::add(const Galaxy &galaxy, double tolerance, View<T> image) {
     require_tolerance(tolerance);
-    const Shape shape = shape_of(galaxy);
+    Shape shape = shape_of(galaxy);
     const double far = reach(shape, tolerance / 2);
     Drawn drawn{0, 0};
     if (shape.flux == 0 || galaxy.x + far < 0 || galaxy.y + far < 0 ||
         galaxy.x - far > static_cast<double>(image.nx - 1) ||
         galaxy.y - far > static_cast<double>(image.ny - 1))
         return drawn;
+    shape.x0 = std::llround(galaxy.x);
+    shape.y0 = std::llround(galaxy.y);
 
-    // Wave numbers from where on all together give no pixel a sixteenth of the tolerance.
-    const SersicTable &table = shape.profile.table();
-    const double end =
-        std::min(std::sqrt(table.highest()), 2 * pi * shape.longest * transfer_.cutoff * 1.5);
-    double lowest = 0, highest = end;
-    for (int i = 0; i < 10; ++i) {
-        const double middle = std::sqrt(std::max(lowest, 1e-3 * highest) * highest);
-        (shape.density() * table.absolute_integral(middle, end) < tolerance / 16 ? highest
-                                                                                : lowest) = middle;
-    }
+    const double small = tolerance / 16; // what may be left out for one reason
+    const double highest = highest_wave(shape, small);
     const WaveForm form{shape.xx, shape.xy, shape.yy, highest * highest};
-
-    const auto x0 = static_cast<int64_t>(std::llround(galaxy.x));
-    const auto y0 = static_cast<int64_t>(std::llround(galaxy.y));
-    const auto margin = static_cast<int64_t>(interpolator().half_width());
+    constexpr auto whole = static_cast<double>(most_pixels);
     int levels = 1;
-    double size = 2 * far + 1;
-    while (size > static_cast<double>(most_pixels)) {
-        // The coarser light has margins as wide as the levels' meeting.
+    double samples = 2 * far + 1; // of the top level
+    for (; samples > whole; ++levels) {
+        // The light of coarse levels is smeared as far as the level below reaches.
         const auto step = static_cast<double>(step_of(levels));
-        size = (2 * far + 1 + static_cast<double>(most_pixels) * step / ratio) / step +
-               static_cast<double>(2 * margin + 2);
-        ++levels;
+        samples = (2 * far + 1) / step + whole / ratio + 2 * interpolator_.half_width() + 2;
     }
-    for (int level = 0; level < levels; ++level) {
-        const bool top = level == levels - 1;
-        const int64_t step = step_of(level), frame = level == 0 ? 0 : margin;
-        const double bound = levels == 1 ? HUGE_VAL : level_bound(shape, level, top);
-        if (bound < tolerance / 16) {
-            drawn.error += bound;
+    for (int number = 0; number < levels; ++number) {
+        const bool top = number == levels - 1;
+        const Level level{number, top, top ? samples : whole};
+        const double most = levels == 1 ? HUGE_VAL : bound(shape, level);
+        if (most <= small) {
+            drawn.error += most;
             continue;
         }
-        View<double> samples;
-        double left_out = 0;
-        for (int64_t n = size_for(top ? size : static_cast<double>(most_pixels));;
-             n = size_for(static_cast<double>(n + 1))) {
-            samples = grid(n, level, top)
-                          .draw(table, form, galaxy.x - static_cast<double>(x0),
-                                galaxy.y - static_cast<double>(y0), galaxy.flux, buffers_);
-            left_out = largest_on_frame(samples, frame);
-            if (left_out < 0.7 * tolerance || n == sizes.back())
-                break;
-        }
-        drawn.error += left_out;
-        const int64_t half = samples.nx / 2;
-        if (level == 0) {
-            const Range x = overlap(x0, half, half - 1, image.nx);
-            const Range y = overlap(y0, half, half - 1, image.ny);
-            for (int64_t j = y.first; j <= y.last; ++j)
-                for (int64_t i = x.first; i <= x.last; ++i) {
-                    const double value = samples(i - x0 + half, j - y0 + half);
-                    image(i, j) += static_cast<T>(value);
-                    drawn.light += value;
-                }
-            continue;
-        }
-        const int64_t edge = (half - 1 - margin) * step;
-        const Range x = overlap(x0, edge, edge, image.nx), y = overlap(y0, edge, edge, image.ny);
-        if (x.empty() || y.empty())
-            continue;
-        constexpr int64_t rows = 64;
-        const auto places = [&](int64_t centre, int64_t first, int64_t count) {
-            return Positions{static_cast<double>(half) -
-                                 static_cast<double>(centre) / static_cast<double>(step),
-                             first, count, 1, step};
-        };
-        for (int64_t j = y.first; j <= y.last; j += rows) {
-            const int64_t count = std::min(rows, y.last - j + 1);
-            if (strip_.nx() != x.count() || strip_.ny() != count)
-                strip_ = Plane<double>::unset(x.count(), count);
-            resample<double>(samples, interpolator(), places(x0, x.first, x.count()),
-                             places(y0, j, count), 1, strip_.view());
-            for (int64_t b = 0; b < count; ++b)
-                for (int64_t a = 0; a < x.count(); ++a) {
-                    image(x.first + a, j + b) += static_cast<T>(strip_(a, b));
-                    drawn.light += strip_(a, b);
-                }
-        }
+        const auto [values, on_frame] = sample(shape, level, form, 0.7 * tolerance);
+        drawn.error += on_frame;
+        drawn.light += number == 0 ? add_pixels(shape, values, image)
+                                   : add_between(shape, level.step(), values, image);
     }
     return drawn;
 }

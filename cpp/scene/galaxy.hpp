@@ -3,6 +3,7 @@
 #pragma once
 
 #include "image/view.hpp"
+#include "numerics/bandlimited.hpp"
 #include "optics/otf.hpp"
 #include "scene/galaxy_grid.hpp"
 #include "scene/sersic.hpp"
@@ -10,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <vector>
 
 namespace wfpsf {
 
@@ -20,6 +22,8 @@ struct Galaxy {
     double half_light_radius; // arcsec; sqrt(a b) of the half-light ellipse
     // (a - b) / (a + b) exp(2 i phi), phi from the x axis to the major one: the reduced shear.
     double e1, e2;
+
+    static constexpr double largest_radius = 1e5, largest_ellipticity = 0.98;
 };
 
 // The OTF must outlive what is made of it.
@@ -52,16 +56,28 @@ class GalaxyDrawer {
 
   private:
     struct Shape; // a galaxy in pixels
+    struct Level;
+    struct Samples {
+        View<double> values;
+        double on_frame; // the largest
+    };
     Shape shape_of(const Galaxy &galaxy);
-    double reach(const Shape &shape, double tolerance);
-    const GalaxyGrid &grid(int64_t size, int level, bool top);
     void measure_psf();
-    double level_bound(const Shape &shape, int level, bool top) const;
+    double reach(const Shape &shape, double tolerance);
+    const GalaxyGrid &grid(const Level &level, int64_t size);
+    double bound(const Shape &shape, const Level &level) const;
+    double highest_wave(const Shape &shape, double tolerance) const;
+    Samples sample(const Shape &shape, const Level &level, const WaveForm &form, double tolerance);
+    template <class T> double add_pixels(const Shape &shape, View<double> values, View<T> image);
+    template <class T>
+    double add_between(const Shape &shape, int64_t step, View<double> values, View<T> image);
 
     Transfer transfer_;
     double pixel_scale_;
     SersicProfiles &profiles_;
-    std::map<std::array<int64_t, 3>, GalaxyGrid> grids_;
+    BandlimitedInterpolator interpolator_; // of coarse grids
+    std::map<std::array<int64_t, 3>, GalaxyGrid>
+        grids_; // by level, whether it is the top, and size
     GalaxyBuffers buffers_;
     Plane<double> strip_;
     // The largest value of the PSF at a distance along x or y or farther, blurred by Gaussians of

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <complex>
+#include <span>
 #include <vector>
 
 namespace wfpsf {
@@ -18,8 +19,8 @@ class SersicHankel {
   public:
     SersicHankel(double n, double b);
 
-    // Good to 1e-12 for log_k > log(1e-7).
-    double at(double log_k) const;
+    // At many wave numbers, by their logarithms; good to 1e-12 for k > 1e-7.
+    void at(std::span<const double> log_k, double *transform) const;
 
   private:
     std::vector<std::complex<double>> weights_; // of equally spaced Im s >= 0

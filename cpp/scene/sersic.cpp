@@ -67,7 +67,8 @@ double checked(double index) {
 
 // The polynomial through values at nodes, by Newton's divided differences.
 template <size_t n>
-std::array<double, n> interpolate(const std::array<double, n> &nodes, std::array<double, n> values) {
+std::array<double, n> interpolate(const std::array<double, n> &nodes,
+                                  std::array<double, n> values) {
     for (size_t order = 1; order < n; ++order)
         for (size_t i = n; i-- > order;)
             values[i] = (values[i] - values[i - 1]) / (nodes[i] - nodes[i - order]);
@@ -83,7 +84,7 @@ std::array<double, n> interpolate(const std::array<double, n> &nodes, std::array
 } // namespace
 
 SersicTable::SersicTable(double n, double b, double mean_square_radius) {
-    constexpr int intervals = 1 << bits; // an octave
+    constexpr size_t intervals = 1 << bits; // an octave
     std::array<double, terms> nodes;
     for (size_t i = 0; i < terms; ++i)
         nodes[i] = std::cos(pi * (static_cast<double>(i) + 0.5) / terms) / 2;
@@ -93,20 +94,25 @@ SersicTable::SersicTable(double n, double b, double mean_square_radius) {
     lowest_ = std::ldexp(1.0, lowest);
     first_ = std::bit_cast<uint64_t>(lowest_) >> (52 - bits);
     const SersicHankel hankel(n, b);
-    double largest = 1, integral = 0;
+    double integral = 0;
     // Two octaves of nothing are the end: one may hold a zero.
     for (int octave = lowest, faint = 0; faint < 2; ++octave) {
-        largest = 0;
-        for (int i = 0; i < intervals; ++i) {
-            std::array<double, terms> values;
+        std::array<double, terms * intervals> logs, values;
+        for (size_t i = 0; i < logs.size(); ++i) {
+            const size_t eighth = i / terms;
+            const double place = static_cast<double>(eighth) + 0.5 + nodes[i % terms];
+            logs[i] = std::log(std::ldexp(1 + place / intervals, octave)) / 2;
+        }
+        hankel.at(logs, values.data());
+        double largest = 0;
+        for (size_t i = 0; i < intervals; ++i) {
+            std::array<double, terms> here;
+            std::copy_n(values.data() + terms * i, terms, here.data());
             double most = 0;
-            for (size_t j = 0; j < terms; ++j) {
-                const double q = std::ldexp(1 + (i + 0.5 + nodes[j]) / intervals, octave);
-                values[j] = hankel.at(std::log(q) / 2);
-                most = std::max(most, std::abs(values[j]));
-            }
-            const std::array<double, terms> c = interpolate(nodes, values);
-            coefficients_.insert(coefficients_.end(), c.begin(), c.end());
+            for (const double value : here)
+                most = std::max(most, std::abs(value));
+            const std::array<double, terms> polynomial = interpolate(nodes, here);
+            coefficients_.insert(coefficients_.end(), polynomial.begin(), polynomial.end());
             integral_.push_back(integral);
             integral += most * std::ldexp(0.5 / intervals, octave);
             largest = std::max(largest, most);
@@ -149,7 +155,8 @@ double Sersic::enclosed(double r) const {
 
 const Sersic &SersicProfiles::of(double index) {
     const auto found = profiles_.find(index);
-    return found != profiles_.end() ? found->second : profiles_.try_emplace(index, index).first->second;
+    return found != profiles_.end() ? found->second
+                                    : profiles_.try_emplace(index, index).first->second;
 }
 
 } // namespace wfpsf

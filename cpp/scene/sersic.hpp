@@ -74,7 +74,7 @@ class Sersic {
     explicit Sersic(double index);
 
     double index() const { return index_; }
-    double b() const { return b_; } // to double precision
+    double b() const { return b_; }    // to double precision
     double brightness(double r) const; // light per area
     // Where the brightness falls to that; 0 if it never is so large.
     double radius_of(double brightness) const;

@@ -71,16 +71,16 @@ inline double behind_gaussian(const SersicGalaxy &g, double sigma, double x, dou
         for (int j = -points; j <= points; ++j)
             for (int i = -points; i <= points; ++i) {
                 const double u = x + i * step, v = y + j * step;
-                sum += step * step * std::exp(-(i * i + j * j) * step * step / (2 * sigma * sigma)) *
-                       g.brightness(shrink * std::hypot((1 - g.e1) * u - g.e2 * v,
-                                                        (1 + g.e1) * v - g.e2 * u));
+                sum +=
+                    step * step * std::exp(-(i * i + j * j) * step * step / (2 * sigma * sigma)) *
+                    g.brightness(shrink *
+                                 std::hypot((1 - g.e1) * u - g.e2 * v, (1 + g.e1) * v - g.e2 * u));
             }
     } else {
-        for_each_node(g, sigma, (far + sees) / g.minor(),
-                      [&](double u, double v, double light) {
-                          const double square = (u - x) * (u - x) + (v - y) * (v - y);
-                          sum += light * std::exp(-square / (2 * sigma * sigma));
-                      });
+        for_each_node(g, sigma, (far + sees) / g.minor(), [&](double u, double v, double light) {
+            const double square = (u - x) * (u - x) + (v - y) * (v - y);
+            sum += light * std::exp(-square / (2 * sigma * sigma));
+        });
     }
     return sum / (2 * std::numbers::pi * sigma * sigma);
 }

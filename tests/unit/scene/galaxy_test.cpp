@@ -46,8 +46,8 @@ TEST(Galaxy, GaussianBehindAGaussianHasItsClosedForm) {
     const double sigma = 0.9;
     Behind behind(sigma);
     for (const double radius : {0.001, 0.3, 1.0, 4.0, 30.0})
-        for (const auto &[e1, e2] : {std::pair(0.0, 0.0), std::pair(0.4, 0.0), std::pair(0.0, 0.4),
-                                     std::pair(-0.2, -0.5)})
+        for (const auto &[e1, e2] :
+             {std::pair(0.0, 0.0), std::pair(0.4, 0.0), std::pair(0.0, 0.4), std::pair(-0.2, -0.5)})
             for (const double tolerance : {1e-3, 1e-5, 1e-7}) {
                 const Galaxy g = galaxy_of(31.37, 29.62, 1, 0.5, radius, e1, e2);
                 Plane<double> image(64, 60);
@@ -83,12 +83,12 @@ TEST(Galaxy, MeetsSumsInRealSpace) {
             const Galaxy middle = galaxy_of(0, 0, flux, index, radius, 0.3, -0.25);
             const oracle::SersicGalaxy truth = oracle_of(middle);
             const double peak = flux * oracle::behind_gaussian(truth, sigma, 0, 0);
-            for (const auto &[x, y] : {std::pair(0.3, -0.2), std::pair(1.4, 2.3),
-                                       std::pair(-9.2, 4.6), std::pair(31.0, 40.5),
-                                       std::pair(-170.5, 120.25), std::pair(700.1, -512.0)}) {
+            for (const auto &[x, y] :
+                 {std::pair(0.3, -0.2), std::pair(1.4, 2.3), std::pair(-9.2, 4.6),
+                  std::pair(31.0, 40.5), std::pair(-170.5, 120.25), std::pair(700.1, -512.0)}) {
                 const Galaxy g = galaxy_of(-x, -y, flux, index, radius, 0.3, -0.25);
                 const double wanted = flux * oracle::behind_gaussian(truth, sigma, x + 2, y + 1);
-                for (const double relative : {1e-2, 1e-4, 1e-6}) {
+                for (const double relative : {1e-2, 1e-5}) {
                     Plane<double> image(3, 2);
                     behind.drawer.add(g, relative * peak, image.view());
                     EXPECT_NEAR(image(2, 1), wanted, relative * peak)
@@ -111,7 +111,7 @@ TEST(Galaxy, IsASumOfStars) {
     for (const double index : {1.0, 4.0}) {
         const Galaxy g = galaxy_of(20.3, 18.8, 1, index, 1.5, 0.2, 0.3);
         std::vector<Star> stars;
-        oracle::for_each_node(oracle_of(g), 0.4, index == 1 ? 20 : 60,
+        oracle::for_each_node(oracle_of(g), 1.2, index == 1 ? 14 : 40,
                               [&](double x, double y, double light) {
                                   stars.push_back({g.x + x, g.y + y, light});
                               });
@@ -241,7 +241,7 @@ TEST(Galaxy, RefusesWhatIsNone) {
     EXPECT_EQ(status_of([](Galaxy &g) { g.flux = INFINITY; }), WFPSF_ERROR_NOT_FINITE);
     for (const double radius : {0.0, -1.0, 1e9, static_cast<double>(NAN)})
         EXPECT_EQ(status_of([=](Galaxy &g) { g.half_light_radius = radius; }), WFPSF_ERROR_RANGE);
-    EXPECT_EQ(status_of([](Galaxy &g) { g.e1 = 1; }), WFPSF_ERROR_RANGE);
+    EXPECT_EQ(status_of([](Galaxy &g) { g.e1 = 0.99; }), WFPSF_ERROR_RANGE);
     EXPECT_EQ(status_of([](Galaxy &g) { g.e2 = NAN; }), WFPSF_ERROR_RANGE);
     EXPECT_EQ(status_of([](Galaxy &g) { g.sersic_index = 0.2; }), WFPSF_ERROR_RANGE);
     for (const double tolerance : {0.0, -1.0, static_cast<double>(NAN)})

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene/far_reach.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace wfpsf {
+
+namespace {
+
+constexpr double farthest = 8192; // native pixels
+constexpr double rings_per_octave = 4;
+
+double radius_of(const FarLight &light, double floor) {
+    double low = light.nearest(), high = farthest;
+    if (light.brightest_beyond(low) <= floor)
+        return low;
+    while (high / low > 1.02) {
+        const double middle = std::sqrt(low * high);
+        (light.brightest_beyond(middle) > floor ? low : high) = middle;
+    }
+    return high;
+}
+
+} // namespace
+
+FarReach::FarReach(const FarLight &light) : nearest_(light.nearest()) {
+    for (double floor = light.brightest_beyond(nearest_); floor > 1e-14; floor /= 2) {
+        const double radius = radius_of(light, floor);
+        const double halo = std::min(light.halo_radius(floor), radius);
+        double width = 0;
+        const double half_way = std::sqrt(nearest_ * radius);
+        for (const FarLight::Direction &spike : light.spikes(half_way, floor))
+            width += 2 * spike.half_width;
+        steps_.push_back({floor, radius, halo,
+                          std::numbers::pi * halo * halo + 2 * width * (radius - nearest_)});
+        if (radius >= farthest)
+            break;
+    }
+    for (double r = nearest_; r < farthest; r *= std::exp2(1 / rings_per_octave))
+        rings_.push_back({light.brightest_beyond(r),
+                          std::max(light.relative_error(r).spikes * light.brightest_beyond(r),
+                                   light.relative_error(r).halo * light.halo_beyond(r))});
+}
+
+double FarReach::error(double radius, double flux, double variance) const {
+    const double at = rings_per_octave * std::log2(std::max(radius / nearest_, 1.0));
+    const Ring &ring = rings_[std::min(static_cast<size_t>(at), rings_.size() - 1)];
+    return ring.error / std::sqrt(1 + flux * ring.brightest / variance);
+}
+
+} // namespace wfpsf

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "error/error.hpp"
+#include "instrument/instrument.hpp"
+#include "optics/far_light.hpp"
+#include "optics/psf.hpp"
+#include "optics/pupil_edges.hpp"
+#include "optics/roman_region.hpp"
+#include "optics/spider_region.hpp"
+#include "oracles/psf_oracle.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <vector>
+
+namespace wfpsf {
+namespace {
+
+using namespace oracle;
+
+constexpr double pixel_scale = 0.11 * pi / 180 / 3600;
+constexpr double reference = 1293e-9, radius = 1.18;
+
+struct Scene {
+    const Instrument &instrument;
+    std::shared_ptr<const Aperture> aperture;
+    Light light;
+
+    Scene(const char *name, const char *band)
+        : instrument(Instrument::get(name)),
+          aperture(std::visit(
+              [](const auto &pupil) {
+                  return std::shared_ptr<const Aperture>(make_aperture(pupil));
+              },
+              instrument.pupil(7, band))),
+          light(detected_light(instrument.band(band), black_body_sed(5000))) {}
+
+    // The same as it is (x, y) native pixels off the star: a tilt of the wavefront.
+    Optics optics(double x = 0, double y = 0) const {
+        const auto zernikes = instrument.zernikes(7);
+        std::vector<double> waves(zernikes.begin(), zernikes.end());
+        waves[0] = 0;
+        waves[1] = x * pixel_scale * radius / (2 * reference);
+        waves[2] = y * pixel_scale * radius / (2 * reference);
+        return {aperture, Wavefront(waves, radius), reference};
+    }
+};
+
+PsfSettings settings(double eps = 1e-4, double reach = 8.5) {
+    return {.wavelength = reference, .pixel_scale = pixel_scale, .eps = eps, .radius = reach};
+}
+
+// ------------------------------------------------------------------------------------------- edges
+
+// Half the integral of x dy - y dx around all lit area.
+double area_inside(const PupilEdges &edges) {
+    double sum = 0;
+    for (const auto &[x0, y0, x1, y1] : edges.straight)
+        sum += (x0 * y1 - x1 * y0) / 2;
+    const GaussLegendre rule(40);
+    for (const CurvedEdge &edge : edges.curved) {
+        const Oval &o = edge.oval;
+        const double half = (edge.end - edge.begin) / 2 * (edge.lit_inside ? 1 : -1);
+        for (size_t i = 0; i < rule.x.size(); ++i) {
+            const double a = (edge.begin + edge.end + (edge.end - edge.begin) * rule.x[i]) / 2;
+            const double u = std::cos(a), v = std::sin(a);
+            const double x = o.x + o.half_width * u, y = o.y + o.shear * u + o.half_height * v;
+            const double dx = -o.half_width * v, dy = -o.shear * v + o.half_height * u;
+            sum += rule.w[i] * half * (x * dy - y * dx) / 2;
+        }
+    }
+    return sum;
+}
+
+TEST(PupilEdges, GoAroundTheLitAreaOfEveryPupil) {
+    std::vector<std::pair<const char *, std::shared_ptr<const Aperture>>> apertures;
+    for (const char *band : {"J129", "F184"})
+        apertures.emplace_back(band, Scene("roman-c9", band).aperture);
+    apertures.emplace_back("c5", Scene("wfirst-afta-c5", "J129").aperture);
+    apertures.emplace_back("annulus", make_aperture(AnnularPupil{1.2, 0.4}));
+    apertures.emplace_back(
+        "spider", make_aperture(SpiderPupil{1.2, 0.36, {{0, 1, 0, 0.05}, {1, 0, 0.1, 0.03}}}));
+    for (const auto &[name, aperture] : apertures)
+        EXPECT_NEAR(area_inside(pupil_edges(aperture->parts())), aperture->area(), 1e-9) << name;
+}
+
+TEST(PupilEdges, RoundedCornersGoOnFromStraightEdges) {
+    const PupilEdges edges = pupil_edges(Scene("wfirst-afta-c5", "J129").aperture->parts());
+    EXPECT_EQ(edges.straight.size(), 12U);
+    const auto joined = junctions(edges);
+    EXPECT_EQ(joined.size(), 24U);
+    for (const Junction &junction : joined)
+        EXPECT_LT(junction.kink, 1e-6);
+}
+
+// ------------------------------------------------------------------------------------------- light
+
+struct Patch {
+    int64_t x, y;       // middle, native pixels from the star
+    double sum, bright; // largest error of the sum, and rms error of the bright pixels
+};
+
+void expect_like_the_engine(const char *instrument, const char *band,
+                            const std::vector<Patch> &patches) {
+    const Scene scene(instrument, band);
+    const FarLight far(scene.optics(), scene.light, settings());
+    for (const auto &[x, y, most_sum, most_bright] : patches) {
+        const auto there = scene.optics(static_cast<double>(x), static_cast<double>(y));
+        const Psf psf = std::move(make_psfs(there, {&scene.light, 1}, settings())[0]);
+        constexpr int64_t half = 8;
+        Plane<double> truth(2 * half + 1, 2 * half + 1);
+        psf.draw({half, half, 1}, 1, truth.view());
+        double peak = 0, sum = 0, off = 0;
+        for (int64_t j = 0; j <= 2 * half; ++j)
+            for (int64_t i = 0; i <= 2 * half; ++i) {
+                peak = std::max(peak, truth(i, j));
+                sum += truth(i, j);
+                off +=
+                    far.at(static_cast<double>(x + i - half), static_cast<double>(y + j - half)) -
+                    truth(i, j);
+            }
+        double squares = 0, count = 0;
+        for (int64_t j = 0; j <= 2 * half; ++j)
+            for (int64_t i = 0; i <= 2 * half; ++i)
+                if (truth(i, j) > 0.3 * peak) {
+                    const double light = far.at(static_cast<double>(x + i - half),
+                                                static_cast<double>(y + j - half));
+                    squares += std::pow(light / truth(i, j) - 1, 2);
+                    ++count;
+                }
+        EXPECT_LT(std::abs(off / sum), most_sum) << instrument << ' ' << band << ' ' << x;
+        EXPECT_LT(std::sqrt(squares / count), most_bright) << instrument << ' ' << band << ' ' << x;
+        const double r = std::hypot(static_cast<double>(x), static_cast<double>(y));
+        EXPECT_LT(std::sqrt(squares / count), 2 * far.relative_error(r).spikes) << x;
+    }
+}
+
+TEST(FarLight, IsThatOfTheExactEngineForRoman) {
+    expect_like_the_engine("roman-c9", "J129", {{62, 15, 0.02, 0.04}, {124, 31, 0.01, 0.015}});
+}
+
+TEST(FarLight, IsThatOfTheExactEngineForTaperedStruts) {
+    expect_like_the_engine("wfirst-afta-c5", "F184", {{126, 20, 0.015, 0.05}});
+}
+
+// An annulus has no straight edge: per unit of solid angle, the mean of the obscured Airy pattern.
+TEST(FarLight, OfAnAnnulusIsTheMeanOfItsRings) {
+    const AnnularPupil pupil{1.2, 0.4};
+    const Light light =
+        detected_light(Instrument::get("roman-c9").band("J129"), black_body_sed(5000));
+    const std::shared_ptr<const Aperture> aperture = make_aperture(pupil);
+    const FarLight far({aperture, Wavefront({}, radius), reference}, light, settings());
+    EXPECT_TRUE(far.spikes(100, 1e-20).empty());
+    const Spectrum spectrum = light(1e-4);
+    double truth = 0, mine = 0;
+    for (int step = 0; step < 60; ++step) { // of a tenth of a pixel
+        const double r = 100 + 0.1 * step;
+        mine += far.at(0.6 * r, 0.8 * r);
+        for (size_t q = 0; q < spectrum.size(); ++q)
+            truth +=
+                spectrum.weight[q] *
+                airy(pupil, spectrum.wavelength[q])(0.6 * r * pixel_scale, 0.8 * r * pixel_scale) *
+                pixel_scale * pixel_scale;
+    }
+    EXPECT_NEAR(mine / truth, 1, 0.01);
+}
+
+TEST(FarLight, IsMirroredWithThePupil) {
+    const Scene scene("roman-c9", "J129");
+    PsfSettings other = settings();
+    other.mirrored = true;
+    const FarLight plain(scene.optics(), scene.light, settings());
+    const FarLight mirrored(scene.optics(), scene.light, other);
+    for (const auto &[x, y] : {std::pair(62, 15), std::pair(-40, 70), std::pair(3, -99)})
+        EXPECT_NEAR(mirrored.at(x, -y) / plain.at(x, y), 1, 1e-12);
+    const auto a = plain.spikes(100, 1e-12), b = mirrored.spikes(100, 1e-12);
+    ASSERT_EQ(a.size(), b.size());
+    EXPECT_EQ(a[1].x, b[1].x);
+    EXPECT_EQ(a[1].y, -b[1].y);
+}
+
+TEST(FarLight, IsAddedOutsideTheStampDownToTheFloor) {
+    const Scene scene("roman-c9", "J129");
+    const FarLight far(scene.optics(), scene.light, settings());
+    const Star star{70.3, 210.6, 1e8};
+    constexpr double inner = 40, floor = 0.1;
+    const auto parts = static_cast<double>(2 * far.spikes(100, 1e-20).size() + 1);
+    Plane<double> image(300, 260), again(300, 260);
+    for (int64_t x = 0; x < image.nx(); ++x)
+        image(x, 7) = again(x, 7) = 3;
+    far.add(star, inner, floor, image.view());
+    far.add(star, inner, floor, again.view(), 3);
+    double left_out = 0;
+    for (int64_t y = 0; y < image.ny(); ++y)
+        for (int64_t x = 0; x < image.nx(); ++x) {
+            ASSERT_EQ(image(x, y), again(x, y));
+            const double dx = static_cast<double>(x) - star.x, dy = static_cast<double>(y) - star.y;
+            const double before = y == 7 ? 3 : 0;
+            if (std::max(std::abs(dx), std::abs(dy)) <= inner) {
+                ASSERT_EQ(image(x, y), before);
+                continue;
+            }
+            const double light = star.flux * far.at(dx, dy), off = light - image(x, y) + before;
+            ASSERT_LT(std::abs(off), parts * floor) << x << ' ' << y;
+            left_out = std::max(left_out, off);
+            ASSERT_LE(light, star.flux * far.brightest_beyond(std::hypot(dx, dy)));
+        }
+    EXPECT_GT(left_out, floor / 10);
+}
+
+TEST(FarLight, RefusesWhatItHasNoTheoryFor) {
+    const Scene scene("roman-c9", "J129");
+    EXPECT_THROW(FarLight(scene.optics(), monochromatic(1e-6), settings()), Error);
+    Plane<double> mask(8, 8);
+    mask(4, 4) = 1;
+    Optics pixels = scene.optics();
+    pixels.aperture = make_aperture(mask.view(), 0.3, 3.5, 3.5);
+    EXPECT_THROW(FarLight(pixels, scene.light, settings()), Error);
+    const FarLight far(scene.optics(), scene.light, settings());
+    EXPECT_THROW(far.add({0, 0, 1}, far.nearest() - 1, 1e-9, mask.view()), Error);
+    EXPECT_THROW(far.add({0, 0, 1}, 40, 0, mask.view()), Error);
+}
+
+} // namespace
+} // namespace wfpsf
