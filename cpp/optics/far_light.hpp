@@ -35,6 +35,7 @@ class FarLight {
 
     // No pixel as far from the star as r, or farther, gets more.
     double brightest_beyond(double r) const;
+    double halo_beyond(double r) const { return halo_.brightest(r); } // between the spikes
 
     // The spikes point along (x, y) and (-x, -y), in the image's frame.
     struct Direction {
