@@ -45,8 +45,8 @@ class GalaxyDrawer {
 
     // Adds a galaxy to an image of native pixels, clipped at the borders. No pixel is off by more
     // than `tolerance`, in units of the flux, unless the estimate says so: where the wings of the
-    // PSF are brighter than that a thousand pixels out. Light fainter than that is left out far from the
-    // galaxy. WFPSF_ERROR_RANGE, _NOT_FINITE for a galaxy that is none.
+    // PSF are brighter than that a thousand pixels out. Light fainter than that is left out far
+    // from the galaxy. WFPSF_ERROR_RANGE, _NOT_FINITE for a galaxy that is none.
     template <class T> Drawn add(const Galaxy &galaxy, double tolerance, View<T> image);
 
     // Pixels farther than that from the galaxy, along either axis, get less than `tolerance`.
