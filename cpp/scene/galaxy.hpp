@@ -26,7 +26,7 @@ struct Galaxy {
     static constexpr double largest_radius = 1e5, largest_ellipticity = 0.98;
 };
 
-// The OTF must outlive what is made of it.
+// `pixel_scale` in radians; the OTF must outlive what is made of it.
 Transfer transfer_of(const Otf &otf, double pixel_scale);
 
 // Draws any number of galaxies behind one PSF, on one thread: keeps the transfer function on the
@@ -44,8 +44,9 @@ class GalaxyDrawer {
     };
 
     // Adds a galaxy to an image of native pixels, clipped at the borders. No pixel is off by more
-    // than `tolerance`, in units of the flux; light fainter than that is left out far from the
-    // galaxy. WFPSF_ERROR_RANGE, _NOT_FINITE for a galaxy that is none.
+    // than `tolerance`, in units of the flux, unless the estimate says so: where the wings of the
+    // PSF are brighter than that a thousand pixels out. Light fainter than that is left out far
+    // from the galaxy. WFPSF_ERROR_RANGE, _NOT_FINITE for a galaxy that is none.
     template <class T> Drawn add(const Galaxy &galaxy, double tolerance, View<T> image);
 
     // Pixels farther than that from the galaxy, along either axis, get less than `tolerance`.
@@ -75,9 +76,8 @@ class GalaxyDrawer {
     Transfer transfer_;
     double pixel_scale_;
     SersicProfiles &profiles_;
-    BandlimitedInterpolator interpolator_; // of coarse grids
-    std::map<std::array<int64_t, 3>, GalaxyGrid>
-        grids_; // by level, whether it is the top, and size
+    BandlimitedInterpolator interpolator_;               // of coarse grids
+    std::map<std::array<int64_t, 3>, GalaxyGrid> grids_; // by level, top or not, and size
     GalaxyBuffers buffers_;
     Plane<double> strip_;
     // The largest value of the PSF at a distance along x or y or farther, blurred by Gaussians of

@@ -37,7 +37,7 @@ struct GalaxyBuffers {
 class GalaxyGrid {
   public:
     // `size` samples (even) of `step` native pixels along both axes, of the image whose transform
-    // is share(|k|) of the transfer function. Samples see all wave numbers, folded as sampling does.
+    // is share(|k|) of the transfer function. Samples see all wave numbers, folded as by sampling.
     GalaxyGrid(const Transfer &transfer, int64_t size, int64_t step,
                const std::function<double(double)> &share);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sersic profiles, I(r) ~ exp(-b r^(1/n)), r in units of the half-light radius (Sersic 1963; Ciotti
-// and Bertin 1999, Astron. Astrophys. 352, 447): untruncated, of unit flux. The Gaussian is n = 0.5,
-// the exponential 1, de Vaucouleurs' 4.
+// and Bertin 1999, Astron. Astrophys. 352, 447): untruncated, of unit flux. The Gaussian is
+// n = 0.5, the exponential 1, de Vaucouleurs' 4.
 #pragma once
 
 #include <bit>
