@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene/far_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace wfpsf {
+
+namespace {
+
+constexpr int64_t margin = 4; // samples that interpolation reaches beyond the outermost block
+
+// Cubic Lagrange interpolation between samples -1, 0, 1, 2, at t of 0..1.
+std::array<double, 4> weights(double t) {
+    return {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2,
+            -(t + 1) * t * (t - 2) / 2, (t + 1) * t * (t - 1) / 6};
+}
+
+} // namespace
+
+FarTable::FarTable(const FarLight &light, double radius)
+    : radius_(radius), half_(static_cast<int64_t>(std::ceil(radius / block))) {
+    // Samples of every sub-pixel phase are an image of native pixels of their own.
+    const int64_t native = 2 * half_ * block + 4, size = native * per_pixel;
+    light_ = Plane<float>(size, size);
+    Plane<double> phase(native, native);
+    const double centre = static_cast<double>(native) / 2;
+    for (int64_t v = 0; v < per_pixel; ++v)
+        for (int64_t u = 0; u < per_pixel; ++u) {
+            phase = Plane<double>(native, native);
+            constexpr double no_floor = 1e-18;
+            light.add({centre - static_cast<double>(u) / per_pixel,
+                       centre - static_cast<double>(v) / per_pixel, 1},
+                      light.nearest(), no_floor, phase.view());
+            for (int64_t y = 0; y < native; ++y)
+                for (int64_t x = 0; x < native; ++x)
+                    light_(x * per_pixel + u, y * per_pixel + v) = static_cast<float>(phase(x, y));
+        }
+    const int64_t blocks = 2 * half_;
+    for (int64_t b = 0; b < blocks; ++b)
+        for (int64_t a = 0; a < blocks; ++a) {
+            float most = 0, sum = 0;
+            for (int64_t y = 0; y < block * per_pixel; ++y)
+                for (int64_t x = 0; x < block * per_pixel; ++x) {
+                    const float here = light_((2 + a * block) * per_pixel + x,
+                                              (2 + b * block) * per_pixel + y);
+                    most = std::max(most, here);
+                    sum += here;
+                }
+            brightest_.push_back(most);
+            light_of_.push_back(sum / (per_pixel * per_pixel));
+        }
+}
+
+double FarTable::pixels_above(double floor) const {
+    const auto count = std::ranges::count_if(
+        brightest_, [floor](float light) { return static_cast<double>(light) > floor; });
+    return static_cast<double>(count * block * block);
+}
+
+double FarTable::light_below(double floor, double inner) const {
+    double sum = 0;
+    for (int64_t b = -half_; b < half_; ++b)
+        for (int64_t a = -half_; a < half_; ++a) {
+            const auto i = static_cast<size_t>((b + half_) * 2 * half_ + a + half_);
+            const double off = static_cast<double>(
+                block * std::max(std::max(a, -a - 1), std::max(b, -b - 1)));
+            if (off >= inner && static_cast<double>(brightest_[i]) <= floor)
+                sum += static_cast<double>(light_of_[i]);
+        }
+    return sum;
+}
+
+template <class T>
+void FarTable::add(const Star &star, double inner, double floor, View<T> image, int64_t first_row,
+                   int64_t last_row) const {
+    // Pixel p of the image is at p - star of the table, whose first sample is at -origin.
+    const double origin = static_cast<double>(half_ * block + 2);
+    const double fraction_x = star.x - std::floor(star.x), fraction_y = star.y - std::floor(star.y);
+    const auto base_x = static_cast<int64_t>(std::floor(star.x));
+    const auto base_y = static_cast<int64_t>(std::floor(star.y));
+    // The same fraction of a sample for all pixels.
+    const auto split = [origin](double fraction) {
+        const double at = (origin - fraction) * per_pixel;
+        return std::pair(static_cast<int64_t>(std::floor(at)), at - std::floor(at));
+    };
+    const auto [sample_x, tx] = split(fraction_x);
+    const auto [sample_y, ty] = split(fraction_y);
+    const std::array<double, 4> wx = weights(tx), wy = weights(ty);
+    for (int64_t b = -half_; b < half_; ++b) {
+        const int64_t y0 = std::max(base_y + b * block, first_row);
+        const int64_t y1 = std::min(base_y + (b + 1) * block - 1, last_row);
+        if (y0 > y1)
+            continue;
+        for (int64_t a = -half_; a < half_; ++a) {
+            const auto i = static_cast<size_t>((b + half_) * 2 * half_ + a + half_);
+            if (static_cast<double>(brightest_[i]) <= floor)
+                continue;
+            const int64_t x0 = std::max<int64_t>(base_x + a * block, 0);
+            const int64_t x1 = std::min(base_x + (a + 1) * block - 1, image.nx - 1);
+            for (int64_t y = y0; y <= y1; ++y) {
+                const bool row_inside = std::abs(static_cast<double>(y) - star.y) <= inner;
+                const int64_t row = sample_y + (y - base_y) * per_pixel - 1;
+                for (int64_t x = x0; x <= x1; ++x) {
+                    if (row_inside && std::abs(static_cast<double>(x) - star.x) <= inner)
+                        continue;
+                    const int64_t column = sample_x + (x - base_x) * per_pixel - 1;
+                    double sum = 0;
+                    for (int64_t v = 0; v < 4; ++v) {
+                        const float *const from = &light_(column, row + v);
+                        sum += wy[static_cast<size_t>(v)] *
+                               (wx[0] * static_cast<double>(from[0]) +
+                                wx[1] * static_cast<double>(from[1]) +
+                                wx[2] * static_cast<double>(from[2]) +
+                                wx[3] * static_cast<double>(from[3]));
+                    }
+                    image(x, y) += static_cast<T>(star.flux * sum);
+                }
+            }
+        }
+    }
+}
+
+template void FarTable::add(const Star &, double, double, View<float>, int64_t, int64_t) const;
+template void FarTable::add(const Star &, double, double, View<double>, int64_t, int64_t) const;
+
+} // namespace wfpsf
