@@ -14,6 +14,7 @@ namespace {
 
 using Complex = std::complex<double>;
 constexpr double pi = std::numbers::pi;
+constexpr double smooth_kink = 0.01; // radians
 
 // C(x) + i S(x), good to 2e-3 (Abramowitz & Stegun 7.3.32 and 7.3.33).
 Complex fresnel(double x) {
@@ -55,45 +56,59 @@ struct Source {
     double begin, end; // of the edge from there, radians
     bool closed;
     bool smooth_begin, smooth_end; // a straight edge goes on there, which has that end's light
-    double slope, w_slope, w_bend; // W_n, dW/da, d2W/da2
+    double slope = 0, w_slope = 0, w_bend = 0; // W along the direction, dW/da, d2W/da2
 };
 
-std::vector<Source> sources(const PupilEdges &edges, const std::vector<Junction> &junctions,
-                            const Wavefront &w, double ux, double uy) {
+// A curved edge, and whether a straight one goes on at its ends, which has those ends' light.
+struct Curve {
+    CurvedEdge edge;
+    bool smooth_begin = false, smooth_end = false;
+};
+
+std::vector<Curve> curves(const PupilEdges &edges, const std::vector<Junction> &joined) {
+    std::vector<Curve> out;
+    for (const CurvedEdge &edge : edges.curved)
+        out.push_back({edge});
+    for (const Junction &junction : joined)
+        if (junction.kink < smooth_kink)
+            (junction.at_begin ? out[junction.curved].smooth_begin
+                               : out[junction.curved].smooth_end) = true;
+    return out;
+}
+
+std::vector<Source> sources(const std::vector<Curve> &curves, const Wavefront &w, double ux,
+                            double uy) {
     std::vector<Source> out;
-    for (size_t i = 0; i < edges.curved.size(); ++i) {
-        const CurvedEdge &edge = edges.curved[i];
-        const auto smooth = [&](bool at_begin) {
-            return std::ranges::any_of(junctions, [&](const Junction &j) {
-                return j.curved == i && j.at_begin == at_begin && j.kink < 0.01;
-            });
-        };
-        const bool smooth_begin = smooth(true), smooth_end = smooth(false);
+    for (const auto &[edge, smooth_begin, smooth_end] : curves) {
         const Oval &o = edge.oval;
         const double a = ux * o.half_width + uy * o.shear, b = uy * o.half_height;
+        const double middle = (edge.begin + edge.end) / 2;
         for (const double side : {1.0, -1.0}) {
-            double at = std::atan2(side * b, side * a);
-            const double middle = (edge.begin + edge.end) / 2;
-            at = middle + std::remainder(at - middle, 2 * pi);
-            const auto point = [&](double angle) -> std::array<double, 2> {
-                const double u = std::cos(angle), v = std::sin(angle);
-                return {o.x + o.half_width * u, o.y + o.shear * u + o.half_height * v};
-            };
-            const auto waves = [&](double angle, double out_by) {
-                const auto [x, y] = point(angle);
-                return w(x + out_by * ux, y + out_by * uy);
-            };
-            const auto [x, y] = point(at);
-            constexpr double h = 1e-3, turn = 1e-2;
-            const double before = waves(at - turn, 0), here = waves(at, 0),
-                         after = waves(at + turn, 0);
-            out.push_back({x * ux + y * uy,
-                           std::hypot(o.half_width * std::sin(at),
-                                      o.half_height * std::cos(at) - o.shear * std::sin(at)),
-                           edge.lit_inside ? side : -side, -side * std::hypot(a, b),
-                           edge.begin - at, edge.end - at, edge.closed(), smooth_begin, smooth_end,
-                           (waves(at, h) - waves(at, -h)) / (2 * h), (after - before) / (2 * turn),
-                           (after - 2 * here + before) / (turn * turn)});
+            const double at =
+                middle + std::remainder(std::atan2(side * b, side * a) - middle, 2 * pi);
+            const double u = std::cos(at), v = std::sin(at);
+            const double x = o.x + o.half_width * u, y = o.y + o.shear * u + o.half_height * v;
+            const double dx = -o.half_width * v, dy = o.half_height * u - o.shear * v;
+            Source source{.place = x * ux + y * uy,
+                          .speed = std::hypot(dx, dy),
+                          .outwards = edge.lit_inside ? side : -side,
+                          .bend = -side * std::hypot(a, b),
+                          .begin = edge.begin - at,
+                          .end = edge.end - at,
+                          .closed = edge.closed(),
+                          .smooth_begin = smooth_begin,
+                          .smooth_end = smooth_end};
+            constexpr double beyond = 0.1; // radians; the wavefront hardly matters there
+            if (source.closed || (source.begin < beyond && source.end > -beyond)) {
+                constexpr double h = 5e-3, turn = 1e-2;
+                const double here = w(x, y);
+                const double before = w(x - turn * dx, y - turn * dy);
+                const double after = w(x + turn * dx, y + turn * dy);
+                source.slope = (w(x + h * ux, y + h * uy) - here) / h;
+                source.w_slope = (after - before) / (2 * turn);
+                source.w_bend = (after - 2 * here + before) / (turn * turn);
+            }
+            out.push_back(source);
         }
     }
     return out;
@@ -135,10 +150,11 @@ Halo::Halo(const FarSource &source, const PupilEdges &edges)
                   std::pow(1 / source.spectrum.wavelength[q] - 1 / wavelength, 2);
     const double scale =
         source.pixel() * source.pixel() / (source.area() * wavelength * wavelength * 4 * pi * pi);
-    const std::vector<Junction> all_junctions = junctions(edges);
+    const std::vector<Junction> joined = junctions(edges);
+    const std::vector<Curve> all = curves(edges, joined);
     for (int i = 0; i < directions; ++i) {
         const auto [ux, uy] = direction(4.0 * i / directions);
-        const std::vector<Source> points = sources(edges, all_junctions, w, ux, uy);
+        const std::vector<Source> points = sources(all, w, ux, uy);
         for (int j = 1; j <= distances; ++j) {
             const double v = static_cast<double>(j) / distances, r = nearest_ / (v * v);
             const double k = r * source.pixel() / wavelength;
@@ -167,7 +183,7 @@ Halo::Halo(const FarSource &source, const PupilEdges &edges)
     }
     std::copy_n(table_.begin(), distances + 1, table_.end() - (distances + 1));
     const auto rounded = std::ranges::count_if(
-        all_junctions, [](const Junction &junction) { return junction.kink < 0.01; });
+        joined, [](const Junction &junction) { return junction.kink < smooth_kink; });
     const auto sharp = 2 * static_cast<std::ptrdiff_t>(edges.straight.size()) - rounded;
     corners_ = static_cast<double>(sharp) * source.mean_wavelength(2) /
                (8 * std::pow(pi, 4) * source.pixel() * source.pixel() * source.area());

@@ -74,7 +74,9 @@ void FarLight::add(const Star &star, double inner, double floor, View<T> image, 
         fail(WFPSF_ERROR_RANGE, "inner = %g: must be %g or more", inner, nearest_);
     if (!(floor > 0))
         fail(WFPSF_ERROR_RANGE, "floor = %g: must be above 0", floor);
-    const double share = floor / star.flux;
+    if (star.flux == 0)
+        return;
+    const double share = floor / std::abs(star.flux);
     on_bands_of_rows(image.ny, threads, [&](int64_t first_row, int64_t last_row) {
         std::vector<double> light(static_cast<size_t>(image.nx));
         for (int64_t y = first_row; y <= last_row; ++y) {
@@ -102,10 +104,15 @@ void FarLight::add(const Star &star, double inner, double floor, View<T> image, 
 }
 
 double FarLight::brightest_beyond(double r) const {
-    double most = halo_.brightest(r);
-    for (const Spike &spike : spikes_.spikes)
-        most += spike.brightest(r);
-    return most;
+    // On a spike's line others give their tails; those in about its direction all they have.
+    double most = 0;
+    for (const Spike &on : spikes_.spikes) {
+        double sum = 0;
+        for (const Spike &spike : spikes_.spikes)
+            sum += spike.brightest_off(r, on.axes());
+        most = std::max(most, sum);
+    }
+    return halo_.brightest(r) + most;
 }
 
 FarLight::Error FarLight::relative_error(double r) const {
@@ -114,7 +121,7 @@ FarLight::Error FarLight::relative_error(double r) const {
     double brightest = 0;
     for (const Spike &spike : spikes_.spikes)
         brightest = std::max(brightest, spike.brightest(r));
-    const double visible = std::min(0.5, 0.02 + 0.7 / fringes);
+    const double visible = std::min(0.5, 0.04 + 0.7 / fringes);
     return {visible * 2 * std::sqrt(halo_.brightest(r) / (brightest + halo_.brightest(r))),
             std::min(0.5, 0.07 + 0.7 / fringes)};
 }

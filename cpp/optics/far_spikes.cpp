@@ -170,6 +170,17 @@ void Spike::add(const PixelRow &row, double floor) const {
     }
 }
 
+double Spike::brightest_off(double r, const SpikeAxes &other) const {
+    constexpr double about = 0.25; // radians
+    const double sine = std::abs(axes_.across(other.nx, other.ny));
+    const double cosine = std::abs(axes_.along(other.nx, other.ny));
+    if (sine < about)
+        return brightest(r);
+    // Its own tail, and the other spike's ends at either side of its line.
+    const double nearest = (sine - about / 2) * r;
+    return cosine < about ? 0 : 2 * scale_ * tail_ / std::pow(nearest * r * cosine, 2);
+}
+
 double Spike::half_width(double r, double floor) const {
     return brightest(r) < floor ? 0 : std::sqrt(scale_ * tail_ / floor) / r;
 }
@@ -296,6 +307,7 @@ struct ArcEnd {
     double tangent; // +1: the edge runs along the axes' across, -1: against it
     double radius;  // of curvature; negative: the light is on the outside
     bool smooth;    // without a kink
+    double waves;   // wavefront there, in the unit of the optics'
 };
 
 // exp(-i pi x^2 / 2) times Fresnel's integral from x to infinity: an arc's amplitude by where its
@@ -398,7 +410,7 @@ class SpikeTables {
         return out;
     }
 
-    static void add_arc(EdgeWaves &edge, const CurvedEdge &arc, const Junction &junction) {
+    void add_arc(EdgeWaves &edge, const CurvedEdge &arc, const Junction &junction) const {
         const Oval &o = arc.oval;
         const double a = junction.at_begin ? arc.begin : arc.end;
         const double u = std::cos(a), v = std::sin(a), way = junction.at_begin ? 1 : -1;
@@ -409,7 +421,8 @@ class SpikeTables {
         const SpikeAxes normal{tangent * dy / speed, -tangent * dx / speed};
         const double radius = std::pow(speed, 3) / (o.half_width * o.half_height);
         edge.arcs.push_back({normal, o.x + x, o.y + y, tangent,
-                             std::copysign(radius, normal.along(x, y)), junction.kink < smooth});
+                             std::copysign(radius, normal.along(x, y)), junction.kink < smooth,
+                             source_.optics.wavefront(o.x + x, o.y + y)});
     }
 
     // The pixel and the blur across a spike, for waves up to the bandwidth.
@@ -529,10 +542,10 @@ class SpikeTables {
             right = std::max(right, middle + e->length / 2);
         }
         const auto [blue, red] = std::ranges::minmax(source_.spectrum.wavelength);
-        constexpr double per_fringe = 10, most_fringes = 6, most_rows = 400, per_wave = 4.5;
+        constexpr double per_fringe = 10, most_fringes = 5, farthest = 1200, per_wave = 4.5;
         const double per_pixel = std::max(high - low, 1e-3) * source_.pixel();
         const double along_step = std::min(20.0, blue / per_pixel / per_fringe);
-        const double end = most_fringes / (per_pixel * (1 / blue - 1 / red));
+        const double end = std::min(farthest, most_fringes / (per_pixel * (1 / blue - 1 / red)));
         const double steps = std::clamp(
             std::floor(blue / ((right - left) * source_.pixel() * per_wave * step_)), 1.0, 4.0);
         const double step = steps * step_;
@@ -540,7 +553,7 @@ class SpikeTables {
         out.per_along_ = 1 / along_step;
         out.per_across_ = 1 / step;
         out.rows_ =
-            static_cast<int64_t>(std::clamp((end - out.nearest_) / along_step + 4, 8.0, most_rows));
+            std::max<int64_t>(8, static_cast<int64_t>((end - out.nearest_) / along_step) + 4);
         const auto across = static_cast<std::ptrdiff_t>(fringe_reach() / step);
         out.columns_ = 2 * across + 1;
         const std::vector<double> taps = filter(out.axes_, step);
@@ -575,7 +588,6 @@ class SpikeTables {
         for (size_t q = 0; q < source_.spectrum.size(); ++q) {
             const double wavelength = source_.spectrum.wavelength[q];
             const double per_metre = source_.pixel() / wavelength;
-            const Wavefront w = source_.wavefront(wavelength);
             Row row(n), own(n);
             const auto add = [&](const Waves &wave, const SpikeAxes &facing, Ramp position,
                                  double px, double py, double phase, double scale) {
@@ -592,9 +604,10 @@ class SpikeTables {
             for (const EdgeWaves *e : group) {
                 const double k_n = e->axes.along(axes.nx, axes.ny) * along * per_metre;
                 Waves wave = e->constant[q];
+                const double share = 1 / k_n;
                 for (size_t j = 0; j < wave.re.size(); ++j) {
-                    wave.re[j] -= e->slope[q].re[j] / k_n;
-                    wave.im[j] -= e->slope[q].im[j] / k_n;
+                    wave.re[j] -= share * e->slope[q].re[j];
+                    wave.im[j] -= share * e->slope[q].im[j];
                 }
                 add(wave, e->axes,
                     {e->axes.across(x0, y0) / step_ + static_cast<double>(wide),
@@ -611,7 +624,8 @@ class SpikeTables {
                     add(ArcWave::get().of(conjugate), arc.axes,
                         {ArcWave::position(start),
                          ArcWave::position(start + turn) - ArcWave::position(start)},
-                        arc.x, arc.y, w(arc.x, arc.y), 1 / std::sqrt(2 * bend));
+                        arc.x, arc.y, arc.waves * source_.optics.wavelength / wavelength,
+                        1 / std::sqrt(2 * bend));
                 }
                 // Of one edge: what it makes with its arcs. Of a group: what its edges make.
                 for (size_t j = 0; j < n; ++j) {

@@ -64,6 +64,8 @@ class Spike {
 
     // The most at a distance of r.
     double brightest(double r) const { return scale_ * most_ / (r * r); }
+    // The most at a distance of r and near another spike's line.
+    double brightest_off(double r, const SpikeAxes &other) const;
     // How far from its line a spike's light is above the floor, at the distance r along it.
     double half_width(double r, double floor) const;
 

@@ -28,12 +28,14 @@ struct Scene {
     Light light;
 
     Scene(const char *name, const char *band)
-        : instrument(Instrument::get(name)),
-          aperture(std::visit(
-              [](const auto &pupil) {
-                  return std::shared_ptr<const Aperture>(make_aperture(pupil));
-              },
-              instrument.pupil(7, band))),
+        : Scene(name, band,
+                std::visit(
+                    [](const auto &pupil) {
+                        return std::shared_ptr<const Aperture>(make_aperture(pupil));
+                    },
+                    Instrument::get(name).pupil(7, band))) {}
+    Scene(const char *name, const char *band, std::shared_ptr<const Aperture> behind)
+        : instrument(Instrument::get(name)), aperture(std::move(behind)),
           light(detected_light(instrument.band(band), black_body_sed(5000))) {}
 
     // The same as it is (x, y) native pixels off the star: a tilt of the wavefront.
@@ -101,9 +103,7 @@ struct Patch {
     double sum, bright; // largest error of the sum, and rms error of the bright pixels
 };
 
-void expect_like_the_engine(const char *instrument, const char *band,
-                            const std::vector<Patch> &patches) {
-    const Scene scene(instrument, band);
+void expect_like_the_engine(const Scene &scene, const std::vector<Patch> &patches) {
     const FarLight far(scene.optics(), scene.light, settings());
     for (const auto &[x, y, most_sum, most_bright] : patches) {
         const auto there = scene.optics(static_cast<double>(x), static_cast<double>(y));
@@ -129,19 +129,28 @@ void expect_like_the_engine(const char *instrument, const char *band,
                     squares += std::pow(light / truth(i, j) - 1, 2);
                     ++count;
                 }
-        EXPECT_LT(std::abs(off / sum), most_sum) << instrument << ' ' << band << ' ' << x;
-        EXPECT_LT(std::sqrt(squares / count), most_bright) << instrument << ' ' << band << ' ' << x;
+        EXPECT_LT(std::abs(off / sum), most_sum) << x;
+        EXPECT_LT(std::sqrt(squares / count), most_bright) << x;
         const double r = std::hypot(static_cast<double>(x), static_cast<double>(y));
-        EXPECT_LT(std::sqrt(squares / count), 2 * far.relative_error(r).spikes) << x;
+        EXPECT_LT(std::sqrt(squares / count), 1.5 * far.relative_error(r).spikes) << x;
     }
 }
 
 TEST(FarLight, IsThatOfTheExactEngineForRoman) {
-    expect_like_the_engine("roman-c9", "J129", {{62, 15, 0.02, 0.04}, {124, 31, 0.01, 0.015}});
+    expect_like_the_engine({"roman-c9", "J129"}, {{62, 15, 0.02, 0.04}, {124, 31, 0.01, 0.015}});
 }
 
-TEST(FarLight, IsThatOfTheExactEngineForTaperedStruts) {
-    expect_like_the_engine("wfirst-afta-c5", "F184", {{126, 20, 0.015, 0.05}});
+TEST(FarLight, IsThatOfTheExactEngineForTaperedStrutsAndRoundedCorners) {
+    expect_like_the_engine({"wfirst-afta-c5", "F184"}, {{126, 20, 0.015, 0.07}});
+}
+
+// Edges on one line interfere however far off.
+TEST(FarLight, IsThatOfTheExactEngineForStrutsThatFaceEachOther) {
+    const double c = std::cos(0.3), s = std::sin(0.3);
+    const SpiderPupil cross{
+        1.2, 0.36, {{c, s, 0, 0.05}, {-s, c, 0, 0.05}, {-c, -s, 0, 0.05}, {s, -c, 0, 0.05}}};
+    expect_like_the_engine({"roman-c9", "J129", make_aperture(cross)},
+                           {{61, 19, 0.005, 0.015}, {-29, 93, 0.005, 0.015}});
 }
 
 // An annulus has no straight edge: per unit of solid angle, the mean of the obscured Airy pattern.
