@@ -28,7 +28,7 @@ Case stars_case(int64_t count, double bright, double noise, double target_s) {
                 Measured m;
                 m.timing = time(
                     [&] {
-                        const ScenePlan plan(optics, sources, budget, image);
+                        const ScenePlan plan(optics, sources, {}, budget, image);
                         const RenderReport r = render(optics, plan, drawn.view(), 1);
                         std::printf("%sexpected %g s; models %.3f, shared %.3f, own %.3f\n",
                                     plan.text().c_str(), plan.time_s(), r.models_s, r.shared_s,

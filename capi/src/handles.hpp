@@ -102,9 +102,7 @@ struct wfpsf_catalogue {
 struct wfpsf_scene {
     wfpsf::SceneOptics optics;
     wfpsf::ScenePlan plan;
-    std::vector<wfpsf::GalaxyShape> shapes;
     size_t catalogue_size;
-    double pixel_scale_arcsec;
 };
 
 struct wfpsf_rendering {

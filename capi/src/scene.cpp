@@ -62,7 +62,8 @@ double property_of(const ScenePlan &plan, int32_t key) {
     }
 }
 
-double property_of(const SourceGroup &group, int32_t key) {
+double property_of(const PlannedGroup &planned, int32_t key) {
+    const SourceGroup &group = planned.group;
     switch (key) {
     case WFPSF_SCENE_GROUP_COLOUR:
         return group.colour;
@@ -72,16 +73,18 @@ double property_of(const SourceGroup &group, int32_t key) {
         return std::ldexp(1.0, group.octave);
     case WFPSF_SCENE_GROUP_SOURCES:
         return static_cast<double>(group.count);
-    case WFPSF_SCENE_GROUP_PSF:
-        return group.way.psf == StarPsf::own ? WFPSF_SCENE_PSF_OWN : WFPSF_SCENE_PSF_SHARED;
+    case WFPSF_SCENE_GROUP_DRAWING:
+        return static_cast<double>(planned.way.drawing) + 1;
     case WFPSF_SCENE_GROUP_RADIUS:
-        return group.way.radius;
+        return planned.way.radius;
     case WFPSF_SCENE_GROUP_EPS:
-        return group.way.eps;
+        return planned.way.eps;
+    case WFPSF_SCENE_GROUP_FAR_FLOOR:
+        return planned.way.far;
     case WFPSF_SCENE_GROUP_ERROR_EXPECTED:
-        return group.error;
+        return planned.error.local + planned.error.mean;
     case WFPSF_SCENE_GROUP_TIME_EXPECTED:
-        return group.time_s;
+        return planned.time_s;
     default:
         fail(WFPSF_ERROR_UNKNOWN_NAME, "key = %d: a group has no property of that key", key);
     }
@@ -97,6 +100,8 @@ double property_of(const RenderReport &report, int32_t key) {
         return report.shared_s;
     case WFPSF_RENDERING_TIME_OWN:
         return report.own_s;
+    case WFPSF_RENDERING_TIME_GALAXIES:
+        return report.galaxies_s;
     case WFPSF_RENDERING_DRAWN:
         return static_cast<double>(report.drawn);
     case WFPSF_RENDERING_EXACT_PSFS:
@@ -227,15 +232,15 @@ wfpsf_status wfpsf_scene_render(const wfpsf_scene *scene, const wfpsf_options *o
                  target.oversampling(), static_cast<long long>(planned.nx),
                  static_cast<long long>(planned.ny), static_cast<long long>(planned.oversampling));
         const PsfSettings &settings = scene->optics.settings;
-        require_light(settings, scene->pixel_scale_arcsec, target, options);
+        require_light(settings, scene->optics.pixel_scale_arcsec, target, options);
         const auto threads = static_cast<int>(option(options, WFPSF_OPTION_THREADS));
         auto made = std::make_unique<wfpsf_rendering>(std::visit(
             [&](auto pixels) {
-                return wfpsf_rendering{render(scene->optics, scene->plan, scene->shapes, pixels,
-                                              threads, manners_of(options))};
+                return wfpsf_rendering{
+                    render(scene->optics, scene->plan, pixels, threads, manners_of(options))};
             },
             target.pixels()));
-        record_light(settings, scene->pixel_scale_arcsec, target);
+        record_light(settings, scene->optics.pixel_scale_arcsec, target);
         const double error = made->report.error;
         if (out)
             *out = made.release();

@@ -30,7 +30,8 @@ inline double shared_psf(double radius, double eps, double bandwidth, bool varie
 }
 
 // A star's stamp of width^2 pixels from a field; rank: fields that are summed first (0: none).
-inline double stamp(double width, double rank, double per_pixel) {
+inline double stamp(double width, double rank) {
+    constexpr double per_pixel = 4;
     const double window = width * per_pixel + 16;
     return 1.5e-6 + 4e-9 * width * width + 2e-9 * width * per_pixel * width +
            0.25e-9 * rank * window * window;
@@ -39,6 +40,22 @@ inline double stamp(double width, double rank, double per_pixel) {
 // Fields that a PSF of that accuracy is a sum of, when what is left out is that share of its peak.
 inline double rank(double left_out) {
     return std::clamp(1 - 2 * std::log10(left_out / 0.05), 1.0, 20.0);
+}
+
+// Far light on that many pixels, drawn by itself; and from a table, where it is bright enough.
+inline double far_light(double pixels) {
+    return 1e-4 + 6e-9 * pixels;
+}
+inline double far_blocks(double pixels) {
+    return 2e-6 + 7e-9 * pixels;
+}
+
+// What they are made from.
+constexpr double making_far_light = 0.5;
+
+// A galaxy on that many pixels by Fourier transform.
+inline double galaxy(double pixels) {
+    return 5e-6 + 3e-8 * pixels;
 }
 
 } // namespace wfpsf::cost

@@ -112,7 +112,7 @@ bool Exposure::make(const std::string &folder, int sca, bool overwrite, int thre
                          {0, 0, settings_.pixels.x, settings_.pixels.y, 1});
     const View<float> pixels = std::get<View<float>>(image.pixels());
     const Manners drawing{manners.progress.between(0, 0.9), manners.memory_limit};
-    const RenderReport report = render(optics, plan, catalogue_.shapes(), pixels, threads, drawing);
+    const RenderReport report = render(optics, plan, pixels, threads, drawing);
     image.set_pixel_scale_arcsec(settings_.pixel_scale_arcsec);
     image.record_applied(Effect::pixel_response);
     for (int64_t y = 0; y < pixels.ny; ++y)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/far_reach.hpp"
 
+#include "error/error.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -25,6 +27,17 @@ double radius_of(const FarLight &light, double floor) {
 
 } // namespace
 
+std::optional<FarLight> far_light_of(const Optics &optics, const Light &light,
+                                     const PsfSettings &settings) {
+    try {
+        return FarLight(optics, light, settings);
+    } catch (const Error &error) {
+        if (error.status() != WFPSF_ERROR_ARGUMENT)
+            throw;
+        return {}; // one colour, or a mask
+    }
+}
+
 FarReach::FarReach(const FarLight &light) : nearest_(light.nearest()) {
     for (double floor = light.brightest_beyond(nearest_); floor > 1e-14; floor /= 2) {
         const double radius = radius_of(light, floor);
@@ -44,10 +57,18 @@ FarReach::FarReach(const FarLight &light) : nearest_(light.nearest()) {
                                    light.relative_error(r).halo * light.halo_beyond(r))});
 }
 
-double FarReach::error(double radius, double flux, double variance) const {
+const FarReach::Ring &FarReach::ring(double radius) const {
     const double at = rings_per_octave * std::log2(std::max(radius / nearest_, 1.0));
-    const Ring &ring = rings_[std::min(static_cast<size_t>(at), rings_.size() - 1)];
-    return ring.error / std::sqrt(1 + flux * ring.brightest / variance);
+    return rings_[std::min(static_cast<size_t>(at), rings_.size() - 1)];
+}
+
+double FarReach::brightest_beyond(double radius) const {
+    return ring(radius).brightest;
+}
+
+double FarReach::error(double radius, double flux, double variance) const {
+    const Ring &at = ring(radius);
+    return at.error / std::sqrt(1 + flux * at.brightest / variance);
 }
 
 } // namespace wfpsf

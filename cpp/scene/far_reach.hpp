@@ -4,9 +4,14 @@
 
 #include "optics/far_light.hpp"
 
+#include <optional>
 #include <vector>
 
 namespace wfpsf {
+
+// None of light of one colour, nor of a pupil that is a mask.
+std::optional<FarLight> far_light_of(const Optics &optics, const Light &light,
+                                     const PsfSettings &settings);
 
 class FarReach {
   public:
@@ -23,6 +28,7 @@ class FarReach {
     // The largest error of a pixel beyond a radius, as a share of the star's light: what the far
     // light is off there, in units of the noise where pixels without the star have `variance`.
     double error(double radius, double flux, double variance) const;
+    double brightest_beyond(double radius) const;
     double nearest() const { return nearest_; }
 
   private:
@@ -31,6 +37,7 @@ class FarReach {
     struct Ring {
         double brightest, error;
     };
+    const Ring &ring(double radius) const;
     std::vector<Ring> rings_; // at nearest * 2^(i/4)
 };
 

@@ -9,12 +9,10 @@ namespace wfpsf {
 
 namespace {
 
-constexpr int64_t margin = 4; // samples that interpolation reaches beyond the outermost block
-
 // Cubic Lagrange interpolation between samples -1, 0, 1, 2, at t of 0..1.
 std::array<double, 4> weights(double t) {
-    return {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2,
-            -(t + 1) * t * (t - 2) / 2, (t + 1) * t * (t - 1) / 6};
+    return {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2,
+            (t + 1) * t * (t - 1) / 6};
 }
 
 } // namespace
@@ -40,36 +38,13 @@ FarTable::FarTable(const FarLight &light, double radius)
     const int64_t blocks = 2 * half_;
     for (int64_t b = 0; b < blocks; ++b)
         for (int64_t a = 0; a < blocks; ++a) {
-            float most = 0, sum = 0;
+            float most = 0;
             for (int64_t y = 0; y < block * per_pixel; ++y)
-                for (int64_t x = 0; x < block * per_pixel; ++x) {
-                    const float here = light_((2 + a * block) * per_pixel + x,
-                                              (2 + b * block) * per_pixel + y);
-                    most = std::max(most, here);
-                    sum += here;
-                }
+                for (int64_t x = 0; x < block * per_pixel; ++x)
+                    most = std::max(most, light_((2 + a * block) * per_pixel + x,
+                                                 (2 + b * block) * per_pixel + y));
             brightest_.push_back(most);
-            light_of_.push_back(sum / (per_pixel * per_pixel));
         }
-}
-
-double FarTable::pixels_above(double floor) const {
-    const auto count = std::ranges::count_if(
-        brightest_, [floor](float light) { return static_cast<double>(light) > floor; });
-    return static_cast<double>(count * block * block);
-}
-
-double FarTable::light_below(double floor, double inner) const {
-    double sum = 0;
-    for (int64_t b = -half_; b < half_; ++b)
-        for (int64_t a = -half_; a < half_; ++a) {
-            const auto i = static_cast<size_t>((b + half_) * 2 * half_ + a + half_);
-            const double off = static_cast<double>(
-                block * std::max(std::max(a, -a - 1), std::max(b, -b - 1)));
-            if (off >= inner && static_cast<double>(brightest_[i]) <= floor)
-                sum += static_cast<double>(light_of_[i]);
-        }
-    return sum;
 }
 
 template <class T>
@@ -109,11 +84,10 @@ void FarTable::add(const Star &star, double inner, double floor, View<T> image, 
                     double sum = 0;
                     for (int64_t v = 0; v < 4; ++v) {
                         const float *const from = &light_(column, row + v);
-                        sum += wy[static_cast<size_t>(v)] *
-                               (wx[0] * static_cast<double>(from[0]) +
-                                wx[1] * static_cast<double>(from[1]) +
-                                wx[2] * static_cast<double>(from[2]) +
-                                wx[3] * static_cast<double>(from[3]));
+                        sum += wy[static_cast<size_t>(v)] * (wx[0] * static_cast<double>(from[0]) +
+                                                             wx[1] * static_cast<double>(from[1]) +
+                                                             wx[2] * static_cast<double>(from[2]) +
+                                                             wx[3] * static_cast<double>(from[3]));
                     }
                     image(x, y) += static_cast<T>(star.flux * sum);
                 }

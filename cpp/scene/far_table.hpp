@@ -17,12 +17,6 @@ class FarTable {
     FarTable(const FarLight &light, double radius);
 
     double radius() const { return radius_; }
-    // Pixels, of all within the table, in blocks that hold light above a share.
-    double pixels_above(double floor) const;
-    // What blocks that are not drawn hold: the light of all pixels below a share, beyond `inner`.
-    double light_below(double floor, double inner) const;
-    // The largest error of an interpolated value, as a share of the light.
-    double error() const { return error_; }
 
     // Adds a star's far light to rows first_row..last_row of an image of native pixels, but for the
     // pixels within `inner` of it along both axes; `floor` is a share of the light.
@@ -36,8 +30,7 @@ class FarTable {
     double radius_;
     int64_t half_; // blocks from the star to the table's end
     Plane<float> light_;
-    std::vector<float> brightest_, light_of_; // by block
-    double error_ = 0;
+    std::vector<float> brightest_; // by block
 };
 
 } // namespace wfpsf

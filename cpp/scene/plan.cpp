@@ -4,329 +4,242 @@
 #include "scene/cost.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
+#include <numbers>
+#include <tuple>
 
 namespace wfpsf {
 
 namespace {
 
-constexpr int least_octave = -64, octaves = 128;
 constexpr double probe_eps = 1e-4, probe_radius = 32;
 
-int octave_of(double flux) {
-    const double magnitude = std::abs(flux);
-    if (!(magnitude > 0))
-        return least_octave;
-    return std::clamp(std::ilogb(magnitude), least_octave, least_octave + octaves - 1);
+PsfSettings probe_settings(PsfSettings settings) {
+    settings.eps = probe_eps;
+    settings.radius = probe_radius;
+    return settings;
 }
 
-// Squares of the detector that sources are drawn in one after another. What lies beyond the image
-// counts to the tiles along its border.
-class Tiles {
-  public:
-    explicit Tiles(const SceneImage &image)
-        : x0_(image.x0), y0_(image.y0), nx_(tiles(image.nx, image)), ny_(tiles(image.ny, image)) {}
-
-    size_t count() const { return static_cast<size_t>(nx_ * ny_); }
-    size_t number(const PlacedSource &s) const {
-        return static_cast<size_t>(tile_of(s.y - y0_, ny_) * nx_ + tile_of(s.x - x0_, nx_));
-    }
-
-    // Cells of SourceGroup::cell pixels within a tile.
-    static constexpr int64_t cells_a_side = 4, cells = cells_a_side * cells_a_side;
-    size_t cell(const PlacedSource &s) const {
-        const auto along = [](double at) {
-            const auto k = static_cast<int64_t>(std::floor(at / SourceGroup::cell)) % cells_a_side;
-            return k < 0 ? k + cells_a_side : k;
-        };
-        return static_cast<size_t>(along(s.y - y0_) * cells_a_side + along(s.x - x0_));
-    }
-
-  private:
-    static constexpr double side = SourceGroup::cell * cells_a_side; // native pixels
-
-    static int64_t tiles(int64_t samples, const SceneImage &image) {
-        return static_cast<int64_t>(std::ceil(static_cast<double>(samples) /
-                                              static_cast<double>(image.oversampling) / side)) +
-               2;
-    }
-    static int64_t tile_of(double at, int64_t count) {
-        return static_cast<int64_t>(
-            std::clamp(std::floor(at / side) + 1, 0.0, static_cast<double>(count - 1)));
-    }
-
-    double x0_, y0_;
-    int64_t nx_, ny_;
-};
-
-// The relative width of a spectrum.
 double bandwidth_of(const Light &light) {
     const Spectrum spectrum = light(0);
     const auto [blue, red] = std::ranges::minmax(spectrum.wavelength);
     return (red - blue) / spectrum.mean_wavelength();
 }
 
-// Stamps' radii that are tried, native pixels.
-std::vector<double> radii(double largest) {
-    std::vector<double> all;
-    for (double r = 2; r < largest; r *= 1.25)
-        all.push_back(std::ceil(r));
-    all.push_back(largest);
-    return all;
+// The largest difference of the far light of two places, as a share of its brightest.
+double far_difference(const FarLight &a, const FarLight &b) {
+    constexpr int directions = 720;
+    const double r = 2 * a.nearest();
+    double most = 0, brightest = 0;
+    for (int i = 0; i < directions; ++i) {
+        const double angle = 2 * std::numbers::pi * i / directions;
+        const double x = r * std::cos(angle), y = r * std::sin(angle);
+        most = std::max(most, std::abs(a.at(x, y) - b.at(x, y)));
+        brightest = std::max(brightest, a.at(x, y));
+    }
+    return most / brightest;
 }
 
-// A way to draw a group, with what it does.
-struct Offer {
-    StarWay way;
-    double time_s, error; // of the group
-};
+constexpr double safety_of_squares = 1.5;
 
-// The ways of one group under a given shared model, or with PSFs of their own.
-class Offers {
-  public:
-    Offers(const SourceGroup &group, const LightProfile &profile, const SceneBudget &budget,
-           const SceneImage &image, double bandwidth, bool varies)
-        : group_(group), profile_(profile), budget_(budget), image_(image), bandwidth_(bandwidth),
-          varies_(varies), native_x_(static_cast<double>(image.nx) / n()),
-          native_y_(static_cast<double>(image.ny) / n()) {}
-
-    template <class Take> void from_shared(const SharedModel &model, const Take &take) const {
-        for (const double radius : radii(std::min(model.radius, group_.reach)))
-            for (double left_out = varies_ ? 1e-2 : model.eps; left_out >= model.eps / 2;
-                 left_out /= 10) {
-                const double psf_error = profile_.peak() * (model.eps + left_out);
-                const double time =
-                    cost::stamp(width(radius), varies_ ? cost::rank(left_out) : 1, per_pixel);
-                take(Offer{{StarPsf::shared, radius, model.eps, profile_.peak() * left_out},
-                           count() * time,
-                           error(radius, psf_error)});
-            }
-    }
-
-    template <class Take> void of_their_own(const Take &take) const {
-        for (const double radius : radii(group_.reach))
-            for (double eps = 1e-4; eps > 1e-11; eps /= 10) {
-                const double made = std::min(radius, largest_field);
-                double time = cost::psf(made, eps, bandwidth_);
-                if (radius > largest_field)
-                    time += cost::large_stamp(pixels(radius), radius, bandwidth_);
-                else
-                    time += cost::stamp(width(radius), 0, per_pixel);
-                take(Offer{{StarPsf::own, radius, eps, 0},
-                           count() * time,
-                           error(radius, profile_.peak() * eps)});
-            }
-    }
-
-  private:
-    static constexpr double largest_field = StarWay::largest_field;
-    static constexpr double per_pixel = 4;
-
-    double n() const { return static_cast<double>(image_.oversampling); }
-    double count() const { return static_cast<double>(group_.count); }
-    double width(double radius) const { return std::sqrt(pixels(radius)); }
-    double pixels(double radius) const {
-        return std::min(2 * radius + 1, native_x_) * std::min(2 * radius + 1, native_y_) * n() *
-               n();
-    }
-    // Of any pixel: what the densest cell leaves out at once, the mean of what all others do, and
-    // the PSF's own error.
-    double error(double radius, double psf_error) const {
-        const bool complete = radius >= group_.reach;
-        if (profile_.beyond(radius) > budget_.flux)
-            return INFINITY;
-        const double cut = complete ? 0 : profile_.brightest_beyond(radius);
-        const double mean = complete ? 0
-                                     : group_.flux * profile_.beyond(radius) /
-                                           ((native_x_ + radius) * (native_y_ + radius));
-        return group_.densest * (cut + psf_error) + mean;
-    }
-
-    const SourceGroup &group_;
-    const LightProfile &profile_;
-    const SceneBudget &budget_;
-    const SceneImage &image_;
-    double bandwidth_;
-    bool varies_;
-    double native_x_, native_y_;
-};
-
-// The best of some offers when an electron of error costs `price` seconds.
+// The best of some offers when an electron of error costs `price` seconds, the local errors of all
+// groups together being about `local`: what a square more adds to their root.
 class Best {
   public:
-    explicit Best(double price) : price_(price) {}
-    void operator()(const Offer &offer) {
-        const double total = offer.time_s + price_ * offer.error;
-        if (total < total_) {
-            total_ = total;
+    Best(double price, double local) : price_(price), local_(local) {}
+    void consider(const Offer &offer) {
+        if (total(offer) < total(offer_))
             offer_ = offer;
-        }
     }
-    double total() const { return total_; }
+    double total(const Offer &offer) const {
+        const PixelError &e = offer.error;
+        return offer.time_s +
+               price_ * (safety_of_squares * e.local * e.local / (2 * local_) + e.mean);
+    }
     const Offer &offer() const { return offer_; }
 
   private:
-    double price_, total_ = INFINITY;
-    Offer offer_{{}, INFINITY, INFINITY};
+    double price_, local_;
+    Offer offer_;
 };
+
+const char *name_of(Drawing drawing) {
+    switch (drawing) {
+    case Drawing::shared:
+        return "shared";
+    case Drawing::own:
+        return "own";
+    case Drawing::fourier:
+        return "fourier";
+    }
+    return "";
+}
 
 } // namespace
 
-double SceneBudget::error() const {
-    return noise * std::sqrt(variance);
+double together(std::span<const PixelError> errors) {
+    double squares = 0, mean = 0;
+    for (const PixelError &error : errors) {
+        squares += error.local * error.local;
+        mean += error.mean;
+    }
+    return safety_of_squares * std::sqrt(squares) + mean;
+}
+
+Optics SceneOptics::nearest(double x, double y) const {
+    return at(std::clamp(x, region.x0, region.x1), std::clamp(y, region.y0, region.y1));
+}
+
+Optics SceneOptics::middle() const {
+    return at((region.x0 + region.x1) / 2, (region.y0 + region.y1) / 2);
 }
 
 ScenePlan::ScenePlan(const SceneOptics &optics, std::vector<PlacedSource> sources,
-                     const SceneBudget &budget, const SceneImage &image)
-    : budget_(budget), image_(image), sources_(std::move(sources)) {
-    sort_sources();
-    make_groups();
-    PsfSettings probe = optics.settings;
-    probe.eps = probe_eps;
-    probe.radius = probe_radius;
-    const Optics middle = optics.at(std::clamp(image.x0 + static_cast<double>(image.nx) / 2,
-                                               optics.region.x0, optics.region.x1),
-                                    std::clamp(image.y0 + static_cast<double>(image.ny) / 2,
-                                               optics.region.y0, optics.region.y1));
-    for (const Light &light : optics.lights)
-        profiles_.emplace_back(make_psfs(middle, {&light, 1}, probe)[0]);
-    choose(optics);
+                     std::span<const GalaxyShape> shapes, const SceneBudget &budget,
+                     const SceneImage &image)
+    : budget_(budget), image_(image), sources_(std::move(sources)),
+      shapes_(shapes.begin(), shapes.end()) {
+    groups_ = std::make_unique<SourceGroups>(sources_, shapes_, optics.pixel_scale_arcsec, image);
+    for (const SourceGroup &group : groups_->all())
+        planned_.push_back({group, {}});
+    learn_colours(optics);
+    choose_galaxy_cells(optics);
+    choose();
 }
 
-// By tiles, rows of tiles first, so that the image is written to in few places at a time.
-void ScenePlan::sort_sources() {
-    const Tiles tiles(image_);
-    std::vector<size_t> begin(tiles.count() + 1);
-    for (const PlacedSource &source : sources_)
-        ++begin[tiles.number(source) + 1];
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    std::vector<PlacedSource> sorted(sources_.size());
-    for (const PlacedSource &source : sources_)
-        sorted[begin[tiles.number(source)]++] = source;
-    sources_ = std::move(sorted);
-}
-
-size_t ScenePlan::group_index(const PlacedSource &source) const {
-    return static_cast<size_t>(group_at_[static_cast<size_t>(
-        source.colour * octaves + octave_of(source.flux) - least_octave)]);
-}
-
-void ScenePlan::make_groups() {
-    int32_t colours = 1;
-    for (const PlacedSource &source : sources_)
-        colours = std::max(colours, source.colour + 1);
-    group_at_.assign(static_cast<size_t>(colours * octaves), -1);
-    const Tiles tiles(image_);
-    const auto n = static_cast<double>(image_.oversampling);
-    const auto reach = [&](const PlacedSource &s) {
-        const double x1 = image_.x0 + static_cast<double>(image_.nx) / n;
-        const double y1 = image_.y0 + static_cast<double>(image_.ny) / n;
-        return std::ceil(std::max({std::abs(s.x - image_.x0), std::abs(s.x - x1),
-                                   std::abs(s.y - image_.y0), std::abs(s.y - y1)}));
-    };
-    size_t tile = 0;
-    std::vector<std::array<double, Tiles::cells>> in_cells; // of the present tile, by group
-    for (const PlacedSource &source : sources_) {
-        if (tiles.number(source) != tile) {
-            tile = tiles.number(source);
-            in_cells.assign(groups_.size(), {});
+void ScenePlan::learn_colours(const SceneOptics &optics) {
+    const PsfSettings settings = probe_settings(optics.settings);
+    const Optics middle = optics.middle();
+    for (size_t c = 0; c < optics.lights.size(); ++c) {
+        const Light &light = optics.lights[c];
+        ColourFacts &facts = colours_.emplace_back();
+        facts.profile = LightProfile(make_psfs(middle, {&light, 1}, settings)[0]);
+        facts.bandwidth = bandwidth_of(light);
+        facts.varies = optics.varies;
+        double brightest = 0;
+        for (const PlannedGroup &planned : planned_)
+            if (planned.group.colour == static_cast<int32_t>(c))
+                brightest = std::max(brightest, planned.group.brightest);
+        // Far light is known only if it matters.
+        if (brightest * facts.profile.brightest_beyond(probe_radius) < 0.1 * budget_.error())
+            continue;
+        if (const auto far = far_light_of(middle, light, settings)) {
+            facts.far.emplace(*far);
+            if (optics.varies)
+                facts.far_varies = far_difference(
+                    *far,
+                    FarLight(optics.nearest(optics.region.x0, optics.region.y0), light, settings));
         }
-        const int octave = octave_of(source.flux);
-        int32_t &at =
-            group_at_[static_cast<size_t>(source.colour * octaves + octave - least_octave)];
-        if (at < 0) {
-            at = static_cast<int32_t>(groups_.size());
-            groups_.push_back({.colour = source.colour, .octave = octave});
-            in_cells.emplace_back();
-        }
-        SourceGroup &group = groups_[static_cast<size_t>(at)];
-        ++group.count;
-        group.flux += std::abs(source.flux);
-        group.reach = std::max(group.reach, reach(source));
-        double &cell = in_cells[static_cast<size_t>(at)][tiles.cell(source)];
-        cell += std::abs(source.flux);
-        group.densest = std::max(group.densest, cell);
     }
 }
 
-void ScenePlan::choose(const SceneOptics &optics) {
-    const size_t colours = optics.lights.size();
-    std::vector<double> bandwidths;
-    for (const Light &light : optics.lights)
-        bandwidths.push_back(bandwidth_of(light));
-    const auto offers_of = [&](const SourceGroup &group) {
-        const auto colour = static_cast<size_t>(group.colour);
-        return Offers(group, profiles_[colour], budget_, image_, bandwidths[colour], optics.varies);
-    };
-    // All that is needed for one colour at a price of error, by the best shared model for it.
-    const auto settle_colour = [&](size_t colour, double price) {
-        std::vector<Offer> own(groups_.size(), Offer{{}, INFINITY, INFINITY});
-        double best_total = INFINITY;
-        for (size_t g = 0; g < groups_.size(); ++g)
-            if (groups_[g].colour == static_cast<int32_t>(colour)) {
-                Best best(price);
-                offers_of(groups_[g]).of_their_own(std::ref(best));
-                own[g] = best.offer();
-            }
-        std::vector<Offer> taken = own;
-        SharedModel chosen;
-        const auto total_of = [price](const Offer &offer) {
-            return offer.time_s + price * offer.error;
-        };
-        const auto consider = [&](const SharedModel &model) {
-            double total = model.time_s;
-            std::vector<Offer> now = own;
-            for (size_t g = 0; g < groups_.size(); ++g) {
-                if (groups_[g].colour != static_cast<int32_t>(colour))
-                    continue;
-                if (model.needed) {
-                    Best best(price);
-                    best(own[g]);
-                    offers_of(groups_[g]).from_shared(model, std::ref(best));
-                    now[g] = best.offer();
-                }
-                total += total_of(now[g]);
-            }
-            if (total < best_total) {
-                best_total = total;
-                taken = std::move(now);
-                chosen = model;
-            }
-        };
-        consider({});
-        for (double eps = 1e-2; eps > 1e-10; eps /= 10)
-            for (double radius = 8; radius <= 64; radius *= 2)
-                consider({true, eps, radius,
-                          cost::shared_psf(radius, eps, bandwidths[colour], optics.varies)});
-        models_[colour] = chosen;
-        for (size_t g = 0; g < groups_.size(); ++g)
-            if (groups_[g].colour == static_cast<int32_t>(colour)) {
-                groups_[g].way = taken[g].way;
-                groups_[g].time_s = taken[g].time_s;
-                groups_[g].error = taken[g].error;
-            }
-    };
-    const auto settle = [&](double price) {
-        models_.assign(colours, {});
-        for (size_t colour = 0; colour < colours; ++colour)
-            settle_colour(colour, price);
-        time_s_ = error_ = 0;
-        for (const SharedModel &model : models_)
-            time_s_ += model.time_s;
-        for (const SourceGroup &group : groups_) {
-            time_s_ += group.time_s;
-            error_ += group.error;
+// As few as keep the error small that a galaxy's PSF is not that of its place.
+void ScenePlan::choose_galaxy_cells(const SceneOptics &optics) {
+    cell_error_.assign(planned_.size(), 0);
+    if (!optics.varies)
+        return;
+    const PsfSettings settings = probe_settings(optics.settings);
+    std::vector<double> change(colours_.size(), -1); // from the middle to a corner
+    double all = 0;
+    for (size_t g = 0; g < planned_.size(); ++g) {
+        const SourceGroup &group = planned_[g].group;
+        if (!group.is_galaxy)
+            continue;
+        const auto c = static_cast<size_t>(group.colour);
+        if (change[c] < 0) {
+            const Light &light = optics.lights[c];
+            constexpr int64_t size = 17;
+            Plane<double> a(size, size), b(size, size);
+            make_psfs(optics.middle(), {&light, 1}, settings)[0].draw({8, 8, 1}, 1, a.view());
+            make_psfs(optics.nearest(0, 0), {&light, 1}, settings)[0].draw({8, 8, 1}, 1, b.view());
+            for (int64_t y = 0; y < size; ++y)
+                for (int64_t x = 0; x < size; ++x)
+                    change[c] = std::max(change[c], std::abs(a(x, y) - b(x, y)));
+        }
+        // A change of the PSF adds no light: galaxies wider than it blur it away.
+        const double blurred = 1 / (1 + 2 * group.half_light * group.half_light);
+        cell_error_[g] = group.densest * change[c] * blurred;
+        all += cell_error_[g];
+    }
+    constexpr double share = 0.2; // of the budget
+    constexpr int most = 8;
+    galaxy_cells_ = static_cast<int>(
+        std::clamp(std::ceil(all / (share * budget_.error())), 1.0, static_cast<double>(most)));
+    for (double &error : cell_error_)
+        error /= galaxy_cells_;
+}
+
+// What is best for a colour at a price of error, by the best shared model for it.
+void ScenePlan::settle_colour(int32_t colour, double price) {
+    const ColourFacts &facts = colours_[static_cast<size_t>(colour)];
+    std::vector<size_t> of_colour;
+    for (size_t g = 0; g < planned_.size(); ++g)
+        if (planned_[g].group.colour == colour)
+            of_colour.push_back(g);
+    std::vector<Best> without; // a shared model
+    for (const size_t g : of_colour) {
+        Best &best = without.emplace_back(price, budget_.error() / (2 * safety_of_squares));
+        const Ways ways(planned_[g].group, facts, budget_, image_);
+        ways.of_own([&](const Offer &offer) { best.consider(offer); });
+        ways.of_fourier([&](Offer offer) {
+            offer.error.local += cell_error_[g];
+            best.consider(offer);
+        });
+    }
+    std::vector<Best> taken;
+    SharedModel chosen;
+    double least = INFINITY;
+    const auto consider = [&](const SharedModel &model) {
+        double total = model.time_s;
+        std::vector<Best> now = without;
+        for (size_t i = 0; i < of_colour.size(); ++i) {
+            if (model.needed)
+                Ways(planned_[of_colour[i]].group, facts, budget_, image_)
+                    .of_shared(model, [&](const Offer &offer) { now[i].consider(offer); });
+            total += now[i].total(now[i].offer());
+        }
+        if (total < least) {
+            least = total;
+            taken = std::move(now);
+            chosen = model;
         }
     };
-    // The lowest price of error at which all of it fits the budget.
-    double low = -20, high = 20; // log10, s per e-
+    consider({});
+    for (double eps = 1e-2; eps > 1e-10; eps /= 10)
+        for (const double radius : {8.0, 16.0, 24.0, 32.0, 48.0, 64.0})
+            consider(
+                {true, eps, radius, cost::shared_psf(radius, eps, facts.bandwidth, facts.varies)});
+    models_[static_cast<size_t>(colour)] = chosen;
+    for (size_t i = 0; i < of_colour.size(); ++i) {
+        const Offer &offer = taken[i].offer();
+        PlannedGroup &planned = planned_[of_colour[i]];
+        planned = {planned.group, offer.way, offer.time_s, offer.error};
+    }
+}
+
+void ScenePlan::settle(double price) {
+    models_.assign(colours_.size(), {});
+    time_s_ = 0;
+    for (size_t colour = 0; colour < colours_.size(); ++colour) {
+        settle_colour(static_cast<int32_t>(colour), price);
+        time_s_ += models_[colour].time_s;
+    }
+    std::vector<PixelError> errors;
+    for (const PlannedGroup &planned : planned_) {
+        time_s_ += planned.time_s;
+        errors.push_back(planned.error);
+    }
+    error_ = together(errors);
+}
+
+// The lowest price of error at which all of it fits the budget.
+void ScenePlan::choose() {
+    double low = -12, high = 12; // log10, s per e-
     settle(std::pow(10.0, high));
-    if (groups_.empty() || !meets_budget())
+    if (planned_.empty() || !meets_budget())
         return;
-    for (int step = 0; step < 24; ++step) {
+    while (high - low > 0.02) {
         const double middle = (low + high) / 2;
         settle(std::pow(10.0, middle));
         (meets_budget() ? high : low) = middle;
@@ -334,29 +247,48 @@ void ScenePlan::choose(const SceneOptics &optics) {
     settle(std::pow(10.0, high));
 }
 
+// The sources; a batch of stars; models and tables; a PSF drawn by itself.
+int64_t ScenePlan::memory() const {
+    constexpr double samples = 8 * 16; // bytes of a native pixel's samples
+    double bytes = static_cast<double>(sources_.size() * sizeof(PlacedSource)) + 12e6;
+    for (const SharedModel &model : models_)
+        if (model.needed)
+            bytes += 12 * samples * 4 * model.radius * model.radius;
+    for (const PlannedGroup &planned : planned_) {
+        const double radius = std::min(planned.way.radius, Way::largest_field);
+        if (planned.way.drawing == Drawing::own)
+            bytes = std::max(bytes, 4 * samples * 4 * radius * radius);
+    }
+    return static_cast<int64_t>(bytes);
+}
+
 std::string ScenePlan::text() const {
     std::string text;
     const auto add = [&text](const char *format, auto... values) {
-        char line[160];
+        char line[200];
         std::snprintf(line, sizeof line, format, values...);
         text += line;
     };
-    add("%zu sources; error allowed %.3g e- a pixel, expected %.3g; time expected %.3g s\n",
+    add("%zu sources; error of a pixel: allowed %.3g e-, expected %.3g; time expected %.3g s\n",
         sources_.size(), budget_.error(), error_, time_s_);
     for (size_t c = 0; c < models_.size(); ++c)
         if (models_[c].needed)
-            add("colour %zu: a PSF of the detector, eps %.0e, radius %g pixels: %.3g s\n", c,
+            add("colour %zu: PSF of the detector, eps %.0e, radius %g pixels, %.3g s\n", c,
                 models_[c].eps, models_[c].radius, models_[c].time_s);
-    add("%6s %12s %10s %8s %8s %9s %10s %10s\n", "colour", "flux from", "sources", "PSF", "radius",
-        "eps", "error e-", "time s");
-    std::vector<SourceGroup> sorted = groups_;
-    std::ranges::sort(sorted, [](const SourceGroup &a, const SourceGroup &b) {
-        return std::pair(a.colour, -a.octave) < std::pair(b.colour, -b.octave);
+    if (galaxy_cells_ > 1)
+        add("galaxies: PSFs of %d x %d parts of the detector\n", galaxy_cells_, galaxy_cells_);
+    add("%6s %6s %10s %9s %8s %7s %7s %7s %9s %9s\n", "colour", "kind", "flux >=", "sources", "PSF",
+        "radius", "eps", "far", "error e-", "time s");
+    std::vector<PlannedGroup> sorted = planned_;
+    std::ranges::sort(sorted, [](const PlannedGroup &a, const PlannedGroup &b) {
+        return std::tuple(a.group.colour, a.group.is_galaxy, -a.group.octave) <
+               std::tuple(b.group.colour, b.group.is_galaxy, -b.group.octave);
     });
-    for (const SourceGroup &g : sorted)
-        add("%6d %12.4g %10lld %8s %8g %9.0e %10.3g %10.3g\n", g.colour, std::ldexp(1.0, g.octave),
-            static_cast<long long>(g.count), g.way.psf == StarPsf::own ? "own" : "shared",
-            g.way.radius, g.way.eps, g.error, g.time_s);
+    for (const PlannedGroup &g : sorted)
+        add("%6d %6s %10.4g %9lld %8s %7g %7.0e %7.0e %9.2g %9.2g\n", g.group.colour,
+            g.group.is_galaxy ? "galaxy" : "star", std::ldexp(1.0, g.group.octave),
+            static_cast<long long>(g.group.count), name_of(g.way.drawing), g.way.radius, g.way.eps,
+            g.way.far, g.error.local + g.error.mean, g.time_s);
     return text;
 }
 

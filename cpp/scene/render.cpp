@@ -2,6 +2,8 @@
 #include "scene/render.hpp"
 
 #include "numerics/bands.hpp"
+#include "scene/far_table.hpp"
+#include "scene/galaxy.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -49,12 +51,14 @@ template <class T> class Renderer {
     Renderer(const SceneOptics &optics, const ScenePlan &plan, View<T> image, int threads,
              const Manners &manners)
         : optics_(optics), plan_(plan), image_(image), frame_(plan.image()), threads_(threads),
-          manners_(manners) {}
+          manners_(manners), models_(plan.models().size()), far_(models_.size()),
+          tables_(models_.size()) {}
 
     RenderReport run() {
         make_models();
-        find_ranks();
+        find_details();
         draw_shared();
+        draw_galaxies();
         draw_own();
         return report_;
     }
@@ -62,35 +66,62 @@ template <class T> class Renderer {
   private:
     void make_models() {
         const Clock clock;
-        models_.resize(plan_.models().size());
         for (size_t colour = 0; colour < models_.size(); ++colour) {
             const SharedModel &model = plan_.models()[colour];
-            if (!model.needed)
-                continue;
-            models_[colour] = std::make_unique<VaryingPsf>(
-                optics_.at, optics_.varies, optics_.lights[colour],
-                settings(model.eps, model.radius), optics_.region,
-                Manners{manners_.progress.between(0, 0.2), manners_.memory_limit});
-            report_.exact_psfs += models_[colour]->exact_psfs();
+            const Light &light = optics_.lights[colour];
+            if (model.needed) {
+                models_[colour] = std::make_unique<VaryingPsf>(
+                    optics_.at, optics_.varies, light, settings(model.eps, model.radius),
+                    optics_.region,
+                    Manners{manners_.progress.between(0, 0.2), manners_.memory_limit});
+                report_.exact_psfs += models_[colour]->exact_psfs();
+            }
+            bool far = false, table = false;
+            for (const PlannedGroup &planned : plan_.groups())
+                if (planned.group.colour == static_cast<int32_t>(colour) && planned.way.far > 0) {
+                    far = true;
+                    table = table || planned.way.drawing == Drawing::shared;
+                }
+            if (far)
+                far_[colour] = far_light_of(optics_.middle(), light, settings(1e-4, 32));
+            if (table)
+                tables_[colour].emplace(*far_[colour], Way::largest_table);
         }
         report_.models_s = clock.seconds();
     }
 
     // As few fields as leave out no more than was planned.
-    void find_ranks() {
-        for (const SourceGroup &group : plan_.groups()) {
+    void find_details() {
+        std::vector<PixelError> errors;
+        for (const PlannedGroup &planned : plan_.groups()) {
+            const Way &way = planned.way;
+            const double peak = plan_.colour(planned.group.colour).profile.peak();
             size_t rank = 0;
-            double of_psf = group.way.eps * plan_.profile(group.colour).peak();
-            if (group.way.psf == StarPsf::shared) {
-                const VaryingPsf &model = *models_[static_cast<size_t>(group.colour)];
+            double of_psf = way.eps * peak;
+            if (way.drawing == Drawing::shared) {
+                const VaryingPsf &model = *models_[static_cast<size_t>(planned.group.colour)];
                 rank = 1;
-                while (rank < model.rank() && model.left_out(rank) > group.way.left_out)
+                while (rank < model.rank() && model.left_out(rank) > way.left_out)
                     ++rank;
-                of_psf = model.error_estimate() * plan_.profile(group.colour).peak();
+                of_psf = model.error_estimate() * peak;
             }
-            details_.push_back({group.way.radius, rank});
-            report_.error += std::max(group.error, group.densest * of_psf);
+            details_.push_back({way.radius, rank});
+            errors.push_back({std::max(planned.error.local, planned.group.densest * of_psf),
+                              planned.error.mean});
         }
+        report_.error = together(errors);
+    }
+
+    // work(first_row, last_row) on bands of the rows that stars reach.
+    template <class Work> void on_rows(double low, double high, const Work &work) const {
+        const auto last = static_cast<double>(image_.ny - 1);
+        const auto first_row = static_cast<int64_t>(std::floor(std::clamp(low, 0.0, last)));
+        const auto rows =
+            static_cast<int64_t>(std::ceil(std::clamp(high, 0.0, last))) - first_row + 1;
+        const auto bands = std::clamp<int64_t>(threads_, 1, rows);
+        for_each_band(bands, [&](int64_t band) {
+            work(first_row + rows * band / bands, first_row + rows * (band + 1) / bands - 1);
+        });
     }
 
     // A part of the sources at a time, so that memory does not grow with their number.
@@ -113,36 +144,99 @@ template <class T> class Renderer {
     void draw_shared(std::span<const PlacedSource> sources, int32_t colour) {
         std::vector<Star> stars;
         std::vector<StarDetail> details;
+        std::vector<double> far; // floors
         double low = INFINITY, high = -INFINITY;
         for (const PlacedSource &source : sources) {
             if (source.colour != colour || source.flux == 0)
                 continue;
             const size_t group = plan_.group_index(source);
-            if (plan_.groups()[group].way.psf != StarPsf::shared)
+            const Way &way = plan_.groups()[group].way;
+            if (way.drawing != Drawing::shared)
                 continue;
-            const StarDetail &detail = details_[group];
+            const double reach = way.far > 0 ? Way::largest_table : way.radius;
             const Star star = frame_.star(source);
-            if (!frame_.reaches(star, detail.radius))
+            if (!frame_.reaches(star, reach))
                 continue;
             stars.push_back(star);
-            details.push_back(detail);
-            const double radius = detail.radius * static_cast<double>(plan_.image().oversampling);
-            low = std::min(low, star.y - radius);
-            high = std::max(high, star.y + radius);
+            details.push_back(details_[group]);
+            far.push_back(way.far);
+            const double samples = reach * static_cast<double>(plan_.image().oversampling);
+            low = std::min(low, star.y - samples);
+            high = std::max(high, star.y + samples);
         }
         if (stars.empty())
             return;
         report_.drawn += static_cast<int64_t>(stars.size());
-        const auto last = static_cast<double>(image_.ny - 1);
-        const auto first_row = static_cast<int64_t>(std::floor(std::clamp(low, 0.0, last)));
-        const auto rows =
-            static_cast<int64_t>(std::ceil(std::clamp(high, 0.0, last))) - first_row + 1;
-        const auto bands = std::clamp<int64_t>(threads_, 1, rows);
-        for_each_band(bands, [&](int64_t band) {
-            models_[static_cast<size_t>(colour)]->add_to_rows(
-                std::span<const Star>(stars), details, plan_.image().x0, plan_.image().y0,
-                plan_.image().oversampling, image_, first_row + rows * band / bands,
-                first_row + rows * (band + 1) / bands - 1);
+        const auto c = static_cast<size_t>(colour);
+        on_rows(low, high, [&](int64_t first_row, int64_t last_row) {
+            models_[c]->add_to_rows(std::span<const Star>(stars), details, plan_.image().x0,
+                                    plan_.image().y0, plan_.image().oversampling, image_, first_row,
+                                    last_row);
+            for (size_t i = 0; i < stars.size(); ++i)
+                if (far[i] > 0)
+                    tables_[c]->add(stars[i], details[i].radius, far[i], image_, first_row,
+                                    last_row);
+        });
+    }
+
+    // Galaxies of one part of the detector after another; each part's share a PSF.
+    void draw_galaxies() {
+        const Clock clock;
+        const int cells = plan_.galaxy_cells();
+        std::vector<std::vector<const PlacedSource *>> parts(models_.size() *
+                                                             static_cast<size_t>(cells * cells));
+        const auto cell_of = [cells](double at, double low, double high) {
+            const double part = (at - low) / (high - low) * cells;
+            return static_cast<size_t>(std::clamp(part, 0.0, static_cast<double>(cells - 1)));
+        };
+        const Region &region = optics_.region;
+        for (const PlacedSource &source : plan_.sources())
+            if (source.flux != 0 && plan_.group_of(source).way.drawing == Drawing::fourier) {
+                const size_t x = cell_of(source.x, region.x0, region.x1);
+                const size_t y = cell_of(source.y, region.y0, region.y1);
+                parts[(static_cast<size_t>(source.colour) * static_cast<size_t>(cells) + y) *
+                          static_cast<size_t>(cells) +
+                      x]
+                    .push_back(&source);
+            }
+        for (size_t part = 0; part < parts.size(); ++part) {
+            manners_.progress.report(0.5 + 0.2 * static_cast<double>(part) /
+                                               static_cast<double>(parts.size()));
+            if (!parts[part].empty())
+                draw_galaxies(parts[part]);
+        }
+        report_.galaxies_s = clock.seconds();
+    }
+
+    void draw_galaxies(const std::vector<const PlacedSource *> &galaxies) {
+        double x = 0, y = 0, share = 1;
+        for (const PlacedSource *galaxy : galaxies) {
+            x += galaxy->x / static_cast<double>(galaxies.size());
+            y += galaxy->y / static_cast<double>(galaxies.size());
+            share = std::min(share, plan_.group_of(*galaxy).way.eps);
+        }
+        const Light &light = optics_.lights[static_cast<size_t>(galaxies[0]->colour)];
+        const PsfSettings s = settings(std::clamp(share, 1e-8, 1e-3), 8);
+        const Psf psf = std::move(make_psfs(optics_.nearest(x, y), {&light, 1}, s)[0]);
+        ++report_.exact_psfs;
+        const Otf otf(psf.components(), s.pixel_scale, s.mirrored, std::clamp(share, 1e-5, 1e-3),
+                      s.blur, s.pixel_response);
+        report_.drawn += static_cast<int64_t>(galaxies.size());
+        on_rows(0, static_cast<double>(image_.ny), [&](int64_t first_row, int64_t last_row) {
+            SersicProfiles profiles;
+            GalaxyDrawer drawer(transfer_of(otf, s.pixel_scale), optics_.pixel_scale_arcsec,
+                                profiles);
+            const View<T> rows{image_.row(first_row), image_.nx, last_row - first_row + 1,
+                               image_.stride_x, image_.stride_y};
+            for (const PlacedSource *source : galaxies) {
+                const GalaxyShape &shape = plan_.shapes()[static_cast<size_t>(source->shape)];
+                const Star centre = frame_.star(*source);
+                const double tolerance = plan_.group_of(*source).way.eps * std::abs(source->flux);
+                drawer.add(Galaxy{centre.x, centre.y - static_cast<double>(first_row), source->flux,
+                                  shape.sersic_index, shape.half_light_radius_arcsec, shape.e1,
+                                  shape.e2},
+                           tolerance, rows);
+            }
         });
     }
 
@@ -151,16 +245,17 @@ template <class T> class Renderer {
         const Clock clock;
         std::vector<const PlacedSource *> own;
         for (const PlacedSource &source : plan_.sources()) {
-            const SourceGroup &group = plan_.group_of(source);
-            if (group.way.psf == StarPsf::own && source.flux != 0 &&
-                frame_.reaches(frame_.star(source), group.way.radius))
+            const Way &way = plan_.group_of(source).way;
+            const double reach = way.far > 0 ? INFINITY : way.radius;
+            if (way.drawing == Drawing::own && source.flux != 0 &&
+                frame_.reaches(frame_.star(source), reach))
                 own.push_back(&source);
         }
         report_.drawn += static_cast<int64_t>(own.size());
         report_.exact_psfs += static_cast<int64_t>(own.size());
         const auto batch = static_cast<size_t>(std::max(threads_, 1));
         for (size_t begin = 0; begin < own.size(); begin += batch) {
-            manners_.progress.report(0.5 + 0.5 * static_cast<double>(begin) /
+            manners_.progress.report(0.7 + 0.3 * static_cast<double>(begin) /
                                                static_cast<double>(own.size()));
             const size_t count = std::min(batch, own.size() - begin);
             std::vector<std::optional<Psf>> psfs(count);
@@ -175,24 +270,24 @@ template <class T> class Renderer {
     }
 
     Psf psf_of(const PlacedSource &source) const {
-        const StarWay &way = plan_.group_of(source).way;
-        const Region &region = optics_.region;
-        const Optics optics = optics_.at(std::clamp(source.x, region.x0, region.x1),
-                                         std::clamp(source.y, region.y0, region.y1));
+        const Way &way = plan_.group_of(source).way;
         const Light &light = optics_.lights[static_cast<size_t>(source.colour)];
-        return std::move(make_psfs(optics, {&light, 1},
-                                   settings(way.eps, std::min(way.radius, largest_field)))[0]);
+        return std::move(make_psfs(optics_.nearest(source.x, source.y), {&light, 1},
+                                   settings(way.eps, std::min(way.radius, Way::largest_field)))[0]);
     }
 
     void draw(const Psf &psf, const PlacedSource &source) {
-        const double radius = plan_.group_of(source).way.radius;
+        const Way &way = plan_.group_of(source).way;
         const int64_t n = plan_.image().oversampling;
         const Star star = frame_.star(source);
-        if (radius <= largest_field) {
+        if (way.far > 0)
+            far_[static_cast<size_t>(source.colour)]->add(
+                star, way.radius, way.far * std::abs(star.flux), image_, threads_);
+        if (way.radius <= Way::largest_field) {
             psf.add(std::span(&star, 1), n, image_, threads_);
             return;
         }
-        const double reach = radius * static_cast<double>(n);
+        const double reach = way.radius * static_cast<double>(n);
         const auto window = [reach](double at, int64_t size) {
             const auto last = static_cast<double>(size - 1);
             return std::pair{static_cast<int64_t>(std::ceil(std::clamp(at - reach, 0.0, last))),
@@ -213,16 +308,17 @@ template <class T> class Renderer {
         return settings;
     }
 
-    static constexpr double largest_field = StarWay::largest_field;
-
     const SceneOptics &optics_;
     const ScenePlan &plan_;
     View<T> image_;
     Frame frame_;
     int threads_;
     const Manners &manners_;
-    std::vector<std::unique_ptr<VaryingPsf>> models_; // by colour
-    std::vector<StarDetail> details_;                 // by group
+    // By colour.
+    std::vector<std::unique_ptr<VaryingPsf>> models_;
+    std::vector<std::optional<FarLight>> far_;
+    std::vector<std::optional<FarTable>> tables_;
+    std::vector<StarDetail> details_; // by group
     RenderReport report_;
 };
 

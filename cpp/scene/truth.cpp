@@ -22,8 +22,7 @@ TrueShape shape_of(const AdaptiveMoments &m, double x0, double y0) {
     const auto native = [](double sample) {
         return (sample - static_cast<double>(oversampling - 1) / 2) / oversampling;
     };
-    return {x0 + native(m.weight.x0), y0 + native(m.weight.y0), m.sigma() / oversampling, m.e1,
-            m.e2};
+    return {x0 + native(m.weight.x), y0 + native(m.weight.y), m.sigma() / oversampling, m.e1, m.e2};
 }
 
 class Measuring {
@@ -35,7 +34,9 @@ class Measuring {
     SourceTruth of(const PlacedSource &source, const Plane<double> &image, double x0,
                    double y0) const {
         SourceTruth truth{.bare = none, .with_ipc = none};
-        truth.flux_in_stamp = source.flux * (1 - plan_.left_out_by(source));
+        const double radius = plan_.group_of(source).way.radius;
+        truth.flux_in_stamp =
+            source.flux * (1 - plan_.colour(source.colour).profile.beyond(radius));
         truth.bare = measured(image, x0, y0, truth.status);
         if (options_.kernel && truth.status == WFPSF_OK) {
             Plane<double> coupled(image.nx(), image.ny());

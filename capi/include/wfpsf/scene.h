@@ -50,9 +50,10 @@ enum { WFPSF_SCENE_PROPERTY_LIST(WFPSF_SCENE_PROPERTY_ENUM) };
     X(KIND, 20, "WFPSF_KIND_*")                                                                    \
     X(FLUX_FROM, 30, "its sources have this flux or more, up to twice as much, e-")                \
     X(SOURCES, 40, "how many sources it has")                                                      \
-    X(PSF, 50, "WFPSF_SCENE_PSF_*")                                                                \
+    X(DRAWING, 50, "WFPSF_DRAWING_*")                                                             \
     X(RADIUS, 60, "half size of the stamps, native pixels")                                        \
     X(EPS, 70, "error of the PSF, in units of its peak")                                           \
+    X(FAR_FLOOR, 75, "light beyond the stamp is drawn down to that share of it; 0: none is")       \
     X(ERROR_EXPECTED, 80, "how far it may bring a pixel off, e-")                                  \
     X(TIME_EXPECTED, 90, "time that it takes, s")
 
@@ -60,16 +61,14 @@ enum { WFPSF_SCENE_PROPERTY_LIST(WFPSF_SCENE_PROPERTY_ENUM) };
 enum { WFPSF_SCENE_GROUP_LIST(WFPSF_SCENE_GROUP_ENUM) };
 #undef WFPSF_SCENE_GROUP_ENUM
 
-/** What a source is drawn as. */
-enum {
-    WFPSF_KIND_STAR = 1,   /**< galaxies too that are small enough */
-    WFPSF_KIND_GALAXY = 2
-};
+/** What a group's sources are. */
+enum { WFPSF_KIND_STAR = 1, WFPSF_KIND_GALAXY = 2 };
 
-/** Where a group's sources get their PSF from. */
+/** How a group's sources are drawn. */
 enum {
-    WFPSF_SCENE_PSF_SHARED = 1, /**< a model of the whole detector's */
-    WFPSF_SCENE_PSF_OWN = 2     /**< one made for each source */
+    WFPSF_DRAWING_SHARED = 1, /**< as stars, by a model of the whole detector's PSF */
+    WFPSF_DRAWING_OWN = 2,    /**< as stars, by a PSF made for each */
+    WFPSF_DRAWING_FOURIER = 3 /**< as galaxies, by Fourier transform */
 };
 
 /** X(NAME, key, text): what rendering came to. */
@@ -78,6 +77,7 @@ enum {
     X(TIME_MODELS, 20, "the part of it that went into PSFs of the whole detector")                 \
     X(TIME_SHARED, 30, "the part for sources drawn with those")                                    \
     X(TIME_OWN, 40, "the part for sources with PSFs of their own")                                 \
+    X(TIME_GALAXIES, 45, "the part for galaxies drawn by Fourier transform")                        \
     X(DRAWN, 50, "sources whose stamps reach the image")                                           \
     X(EXACT_PSFS, 60, "exact PSFs that were made")                                                 \
     X(ERROR_ESTIMATE, 70, "how far a pixel may be off, e-, by the PSFs as they came out")

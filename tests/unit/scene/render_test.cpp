@@ -22,7 +22,7 @@ TEST(Render, ErrorsStayWithinTheBudget) {
     const std::vector<PlacedSource> sources = scenes::stars({60, 18, 26, 0.3, 5e12}, image, 20);
     const Plane<double> truth = scenes::brute_force(optics, sources, image, 1e-10);
     for (const double noise : {0.5, 0.05, 0.005}) {
-        const ScenePlan plan(optics, sources, {.noise = noise, .variance = 100}, image);
+        const ScenePlan plan(optics, sources, {}, {.noise = noise, .variance = 100}, image);
         Plane<double> drawn(image.nx, image.ny);
         const RenderReport report = render(optics, plan, drawn.view(), 1);
         const double error = worst(drawn, truth);

@@ -27,6 +27,7 @@ inline SceneOptics roman(const char *band, std::vector<Light> lights, int sca = 
             .varies = true,
             .region = {-512, -512, 4599, 4599},
             .settings = {.wavelength = 1293e-9, .pixel_scale = pixel_scale, .eps = 0, .radius = 0},
+            .pixel_scale_arcsec = 0.11,
             .lights = std::move(lights)};
 }
 

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene/ways.hpp"
+
+#include "scene/cost.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wfpsf {
+
+namespace {
+
+// Stamps' radii that are tried, native pixels.
+std::vector<double> radii(double largest) {
+    std::vector<double> all;
+    for (double r = 2; r < largest; r = std::ceil(r * 1.2))
+        all.push_back(r);
+    all.push_back(largest);
+    return all;
+}
+
+} // namespace
+
+double SceneBudget::error() const {
+    return noise * std::sqrt(variance);
+}
+
+double Ways::pixels(double radius) const {
+    const auto n = static_cast<double>(image_.oversampling);
+    return std::min(2 * radius + 1, image_.native_x()) *
+           std::min(2 * radius + 1, image_.native_y()) * n * n;
+}
+
+double Ways::width(double radius) const {
+    return std::sqrt(pixels(radius));
+}
+
+// A galaxy drawn as a star: half the curvature of the PSF times the mean square along an axis; the
+// curvature of Roman's PSFs at the peak is below 4 / pixel^2 of it.
+double Ways::point_error() const {
+    return group_.is_galaxy ? std::min(1.0, group_.mean_square) * colour_.profile.peak() : 0;
+}
+
+double Ways::cut(double radius) const {
+    return radius >= group_.reach ? 0 : colour_.profile.brightest_beyond(radius);
+}
+
+// What all sources of the group leave out on the average, if each leaves out that share.
+double Ways::mean(double light) const {
+    return group_.flux * light / (image_.native_x() * image_.native_y());
+}
+
+void Ways::with_and_without_far(const Way &way, double time_s, double psf_error,
+                                const Take &take) const {
+    const double beyond = way.radius >= group_.reach ? 0 : colour_.profile.beyond(way.radius);
+    if (beyond <= budget_.flux)
+        take({way, time_s, {group_.densest * (cut(way.radius) + psf_error), mean(beyond)}});
+    if (!colour_.far || way.radius < colour_.far->nearest() || way.radius >= group_.reach)
+        return;
+    const FarReach &far = *colour_.far;
+    const bool own = way.drawing == Drawing::own;
+    const double off = far.error(way.radius, group_.brightest, budget_.variance) +
+                       colour_.far_varies * colour_.profile.brightest_beyond(way.radius);
+    for (const FarReach::Step &step : far.steps()) {
+        // A table ends somewhere; drawn by itself, far light goes on.
+        const double end =
+            own ? std::min(step.radius, group_.reach) : std::min(step.radius, Way::largest_table);
+        if (end <= way.radius)
+            continue;
+        const double left = std::max(step.floor, end < step.radius ? far.brightest_beyond(end) : 0);
+        const double light = colour_.profile.beyond(std::min(std::max(step.halo, way.radius), end));
+        if (light > budget_.flux)
+            continue;
+        Way with = way;
+        with.far = step.floor;
+        const double time = own ? cost::far_light(pixels(end)) : cost::far_blocks(step.pixels);
+        take({with,
+              time_s + count() * time,
+              {group_.densest * (left + off + psf_error), mean(light)}});
+    }
+}
+
+void Ways::of_shared(const SharedModel &model, const Take &take) const {
+    for (const double radius : radii(std::min(model.radius, group_.reach)))
+        for (double left_out = colour_.varies ? 1e-2 : model.eps; left_out >= model.eps / 2;
+             left_out /= 10) {
+            const double psf_error =
+                colour_.profile.peak() * (model.eps + left_out) + point_error();
+            const double rank = colour_.varies ? cost::rank(left_out) : 1;
+            with_and_without_far(
+                {Drawing::shared, radius, model.eps, colour_.profile.peak() * left_out, 0},
+                count() * cost::stamp(width(radius), rank), psf_error, take);
+        }
+}
+
+void Ways::of_own(const Take &take) const {
+    for (const double radius : radii(group_.reach))
+        for (double eps = 1e-4; eps > 1e-11; eps /= 10) {
+            const double made = std::min(radius, Way::largest_field);
+            double time = cost::psf(made, eps, colour_.bandwidth);
+            if (radius > Way::largest_field)
+                time += cost::large_stamp(pixels(radius), radius, colour_.bandwidth);
+            else
+                time += cost::stamp(width(radius), 0);
+            with_and_without_far({Drawing::own, radius, eps, 0, 0}, count() * time,
+                                 colour_.profile.peak() * eps + point_error(), take);
+        }
+}
+
+void Ways::of_fourier(const Take &take) const {
+    if (!group_.is_galaxy || image_.oversampling != 1)
+        return;
+    for (double share = 1e-2; share > 1e-12; share /= 2) {
+        const double radius = group_.half_light * (2 + group_.index * -std::log10(share));
+        // Light below the tolerance is left out: no more in all than on as large an area as is
+        // drawn.
+        const double light = std::min(0.5, 4 * radius * radius * share);
+        if (light > budget_.flux)
+            continue;
+        take({{Drawing::fourier, radius, share, 0, 0},
+              count() * cost::galaxy(pixels(radius + 8)),
+              {group_.densest * share, mean(light)}});
+    }
+}
+
+} // namespace wfpsf

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The ways to draw a group of sources, each with what it costs and how far it may be off.
+#pragma once
+
+#include "scene/far_reach.hpp"
+#include "scene/groups.hpp"
+#include "scene/light_profile.hpp"
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace wfpsf {
+
+struct SceneBudget {
+    double noise = 0.01;   // largest error of a pixel, in units of its noise
+    double variance = 100; // of a pixel's noise beside the sources' own, e-^2
+    // Largest share of a source's light that its stamp may leave out.
+    double flux = std::numeric_limits<double>::infinity();
+
+    double error() const; // e- that a pixel may be off
+};
+
+enum class Drawing {
+    shared,  // as stars, each with the PSF of its place from a model of the whole detector
+    own,     // as stars, with PSFs made for each
+    fourier, // as galaxies, by Fourier transform
+};
+
+struct Way {
+    Drawing drawing = Drawing::shared;
+    double radius = 0;   // of the stamp, native pixels
+    double eps = 0;      // of the PSF, of its peak; of galaxies, of a pixel as a share of the flux
+    double left_out = 0; // by modes of the shared model: largest share of the light in a pixel
+    double far = 0;      // light beyond the stamp is drawn down to that share; 0: none is
+
+    // Own PSFs are made out to here; what is farther is drawn straight from the diffraction image.
+    static constexpr double largest_field = 256;
+    // Far light that sources share ends here.
+    static constexpr double largest_table = 256;
+};
+
+// A PSF of the whole detector that groups of one colour share.
+struct SharedModel {
+    bool needed = false;
+    double eps = 0, radius = 0; // native pixels
+    double time_s = 0;
+};
+
+// A colour's PSFs, as far as plans need to know them.
+struct ColourFacts {
+    LightProfile profile;
+    double bandwidth = 0; // relative; 0: one wavelength
+    bool varies = false;  // over the detector
+    std::optional<FarReach> far;
+    double far_varies = 0; // share of the far light that differs over the detector
+};
+
+// Errors of a pixel, e-. Those in single places hardly ever meet: their squares add up. The means of
+// what is left out everywhere add up themselves.
+struct PixelError {
+    double local = 0, mean = 0;
+};
+
+struct Offer {
+    Way way;
+    double time_s = std::numeric_limits<double>::infinity(); // of the group
+    PixelError error = {std::numeric_limits<double>::infinity(), 0};
+};
+using Take = std::function<void(const Offer &)>;
+
+class Ways {
+  public:
+    Ways(const SourceGroup &group, const ColourFacts &colour, const SceneBudget &budget,
+         const SceneImage &image)
+        : group_(group), colour_(colour), budget_(budget), image_(image) {}
+
+    void of_shared(const SharedModel &model, const Take &take) const;
+    void of_own(const Take &take) const;
+    void of_fourier(const Take &take) const; // of galaxies
+
+  private:
+    double count() const { return static_cast<double>(group_.count); }
+    double pixels(double radius) const;
+    double width(double radius) const;
+    double point_error() const;
+    double cut(double radius) const;
+    double mean(double light) const;
+    // The same stamps without and with far light beyond them.
+    void with_and_without_far(const Way &way, double time_s, double psf_error,
+                              const Take &take) const;
+
+    const SourceGroup &group_;
+    const ColourFacts &colour_;
+    const SceneBudget &budget_;
+    const SceneImage &image_;
+};
+
+} // namespace wfpsf
