@@ -221,11 +221,6 @@ std::vector<double> WavelengthRule::moments(const Spectrum &spectrum) const {
     return moments;
 }
 
-double WavelengthRule::high_moment(const Spectrum &spectrum) const {
-    const std::vector<double> moment = moments(spectrum);
-    return std::max(std::abs(moment[size() - 1]), std::abs(moment[size() - 2]));
-}
-
 std::vector<double> WavelengthRule::weights(const Spectrum &spectrum) const {
     if (exact_) {
         std::vector<double> weights(size());
@@ -239,7 +234,7 @@ std::vector<double> WavelengthRule::weights(const Spectrum &spectrum) const {
     std::vector<double> weights(size());
     for (size_t k = 0; k < size(); ++k)
         for (size_t j = 0; j < size(); ++j)
-            weights[k] += component(j, k) * moment[j];
+            weights[k] += gauss_[k] * polynomial_[k][j] * moment[j];
     return weights;
 }
 
