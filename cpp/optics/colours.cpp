@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "optics/colours.hpp"
 
+#include "numerics/quadrature.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -53,6 +55,28 @@ double error_of(const WavelengthRule &rule, const std::vector<double> &weights, 
     return most;
 }
 
+// The range of a flat spectrum in 1 / wavelength that varies as much.
+double flat_range(const Spectrum &spectrum) {
+    double mean = 0, squares = 0;
+    for (size_t i = 0; i < spectrum.size(); ++i)
+        mean += spectrum.weight[i] / spectrum.wavelength[i];
+    for (size_t i = 0; i < spectrum.size(); ++i)
+        squares += spectrum.weight[i] * std::pow(1 / spectrum.wavelength[i] - mean, 2);
+    return std::sqrt(12 * squares);
+}
+
+// How many points a rule needs that misses so little of a flat spectrum.
+size_t usual_size(double range, double longest_path, const Brightness &brightness, double eps) {
+    constexpr int places = 16;
+    int most = 2;
+    for (int i = 1; i <= places; ++i) {
+        const double path = longest_path * i / places;
+        if (const double missed = eps / brightness(path); missed < 1)
+            most = std::max(most, gauss_legendre_points(pi * path * range, missed));
+    }
+    return static_cast<size_t>(most);
+}
+
 } // namespace
 
 Brightness usual_brightness(double wavelength) {
@@ -72,8 +96,7 @@ ColourChoice choose_wavelengths(std::span<const Spectrum> spectra, double longes
         fringes.emplace_back(paths.count);
         add(spectrum.wavelength, spectrum.weight, blue, paths, fringes.back());
     }
-    const double turns = pi * longest_path * (1 / blue - 1 / red);
-    for (auto n = static_cast<size_t>(3 + turns / 6);; n += 1 + n / 16) {
+    for (size_t n = usual_size(flat_range(all), longest_path, brightness, eps);; n += 1 + n / 16) {
         ColourChoice choice{WavelengthRule(all, n), {}, 0};
         for (size_t s = 0; s < spectra.size() && choice.error <= eps; ++s) {
             choice.weights.push_back(choice.rule.weights(spectra[s]));

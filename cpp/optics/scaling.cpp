@@ -41,10 +41,15 @@ WFPSF_VECTORISED void combine(const std::vector<double> &weights,
     }
 }
 
-// Adds weight * from.
-void add_scaled(double weight, const double *__restrict from, double *__restrict to) {
-    for (int64_t i = 0; i < block; ++i)
-        to[i] += weight * from[i];
+// Adds the same values to many sums, each with its own weight.
+WFPSF_VECTORISED void add_to_all(const double *__restrict values, int64_t count,
+                                 const std::vector<double> &weights,
+                                 const std::vector<double *> &sums) {
+    for (size_t s = 0; s < sums.size(); ++s) {
+        double *__restrict sum = sums[s];
+        for (int64_t i = 0; i < count; ++i)
+            sum[i] += weights[s] * values[i];
+    }
 }
 
 // One wavelength's image: what it is made of, and where its samples along an axis lie among those
@@ -79,18 +84,37 @@ struct SizedColour {
     }
 };
 
-// A block of rows of an image at a time.
-class BlockOfRows {
+// Some rows of an image at a time, in tiles that stay in the cache.
+class Rows {
   public:
-    BlockOfRows(std::span<const Plane<double>> images, int64_t taps)
-        : images_(images), combined_(blocks_for(images[0].nx()), block + taps + 1),
-          lines_(combined_.nx(), together), turned_(block, combined_.nx()) {}
+    static constexpr int64_t most = 2 * block;
 
-    // Calls column(x, values) with all samples of a block, of which the last may stand for nothing.
+    Rows(std::span<const Plane<double>> images, int64_t taps)
+        : images_(images), combined_(tile, most + taps + 1), lines_(tile, together),
+          turned_(most, images[0].nx()), sums_(most) {}
+
+    // Calls column(x, values) with all samples of the rows, and some more that stand for nothing.
     template <class Column>
     void make(const SizedColour &colour, int64_t first, int64_t last, const Column &column) {
-        const int64_t size = static_cast<int64_t>(colour.first.size());
-        const int64_t left = colour.begin(0), columns = colour.end(size - 1) - left;
+        const auto size = static_cast<int64_t>(colour.first.size());
+        const int64_t left = colour.begin(0), right = colour.end(size - 1);
+        for (int64_t x = left; x < right; x += tile)
+            make_tile(colour, first, last, x, std::min(tile, right - x));
+        for (int64_t x = 0; x < size; ++x) {
+            const double *const start = turned_.view().row(colour.begin(x));
+            sum_blocks(colour.weights_of(x), colour.taps, &start, 1, most, blocks_for(last - first),
+                       sums_.data());
+            column(x, sums_.data());
+        }
+    }
+
+  private:
+    static constexpr int64_t tile = 8 * block; // columns
+    static constexpr int64_t together = 8;     // rows, that fill cache lines as they become columns
+
+    // From the given images to columns of the rows, along y.
+    void make_tile(const SizedColour &colour, int64_t first, int64_t last, int64_t left,
+                   int64_t columns) {
         const int64_t low = colour.begin(first), rows = colour.end(last - 1) - low;
         std::vector<const double *> terms(images_.size());
         for (int64_t y = 0; y < rows; ++y) {
@@ -102,30 +126,18 @@ class BlockOfRows {
             const int64_t count = std::min(together, last - y);
             for (int64_t i = 0; i < count; ++i) {
                 const double *const start = combined_.view().row(colour.begin(y + i) - low);
-                sum_blocks(colour.weights_of(y + i), colour.taps, &start, 1, combined_.nx(),
+                sum_blocks(colour.weights_of(y + i), colour.taps, &start, 1, tile,
                            blocks_for(columns), lines_.view().row(i));
             }
-            turn(columns, y - first);
+            for (int64_t x = 0; x < columns; ++x)
+                for (int64_t i = 0; i < together; ++i)
+                    turned_(y - first + i, left + x) = lines_(x, i);
         }
-        double sums[block];
-        for (int64_t x = 0; x < size; ++x) {
-            const double *const start = turned_.view().row(colour.begin(x) - left);
-            sum_blocks(colour.weights_of(x), colour.taps, &start, 1, block, block, sums);
-            column(x, sums);
-        }
-    }
-
-  private:
-    static constexpr int64_t together = 8; // rows, that fill cache lines as they become columns
-
-    void turn(int64_t columns, int64_t row) {
-        for (int64_t x = 0; x < columns; ++x)
-            for (int64_t i = 0; i < together; ++i)
-                turned_(row + i, x) = lines_(x, i);
     }
 
     std::span<const Plane<double>> images_;
     Plane<double> combined_, lines_, turned_;
+    std::vector<double> sums_;
 };
 
 } // namespace
@@ -182,8 +194,10 @@ std::vector<Plane<double>> Scaling::sums(std::span<const Plane<double>> images,
         return sums;
     }
     const BandlimitedInterpolator &interpolator = samples_->interpolator();
-    std::vector<Plane<double>> turned(weights.size(), Plane<double>(blocks_for(size), size));
-    BlockOfRows rows(images, interpolator.taps());
+    std::vector<Plane<double>> turned(weights.size(), Plane<double>(size, size)); // (y, x)
+    Rows rows(images, interpolator.taps());
+    std::vector<double> own(weights.size());
+    std::vector<double *> columns(weights.size());
     // A few colours at a time: their weights stay in the cache, and so do the rows that they share.
     constexpr size_t together = 8;
     for (size_t begin = 0; begin < colours.size(); begin += together) {
@@ -191,17 +205,21 @@ std::vector<Plane<double>> Scaling::sums(std::span<const Plane<double>> images,
         std::vector<SizedColour> some;
         for (size_t k = begin; k < end; ++k)
             some.emplace_back(shares(colours[k]), interpolator, from_, size, blue_ / colours[k]);
-        for (int64_t first = 0; first < size; first += block) {
+        for (int64_t first = 0; first < size; first += Rows::most) {
+            const int64_t last = std::min(first + Rows::most, size);
             progress.report((static_cast<double>(begin) + static_cast<double>(end - begin) *
                                                               static_cast<double>(first) /
                                                               static_cast<double>(size)) /
                             static_cast<double>(colours.size()));
-            for (size_t k = begin; k < end; ++k)
-                rows.make(some[k - begin], first, std::min(first + block, size),
-                          [&](int64_t x, const double *values) {
-                              for (size_t s = 0; s < weights.size(); ++s)
-                                  add_scaled(weights[s][k], values, &turned[s](first, x));
-                          });
+            for (size_t k = begin; k < end; ++k) {
+                for (size_t s = 0; s < weights.size(); ++s)
+                    own[s] = weights[s][k];
+                rows.make(some[k - begin], first, last, [&](int64_t x, const double *values) {
+                    for (size_t s = 0; s < weights.size(); ++s)
+                        columns[s] = &turned[s](first, x);
+                    add_to_all(values, last - first, own, columns);
+                });
+            }
         }
     }
     for (Plane<double> &plane : turned) {
