@@ -66,8 +66,8 @@ int64_t memory(const ImageMaker &maker, const Scaling &scaling, size_t fields) {
 struct Shares {
     double of_images, of_scaling, of_rule;
     explicit Shares(bool many_colours)
-        : of_images(many_colours ? 0.4 : 1), of_scaling(many_colours ? 0.3 : 0),
-          of_rule(many_colours ? 0.3 : 0) {}
+        : of_images(many_colours ? 0.35 : 1), of_scaling(many_colours ? 0.15 : 0),
+          of_rule(many_colours ? 0.5 : 0) {}
 };
 
 // The images that those of all wavelengths are made of.

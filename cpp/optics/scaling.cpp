@@ -41,15 +41,11 @@ WFPSF_VECTORISED void combine(const std::vector<double> &weights,
     }
 }
 
-// Adds the same values to many sums, each with its own weight.
-WFPSF_VECTORISED void add_to_all(const double *__restrict values, int64_t count,
-                                 const std::vector<double> &weights,
-                                 const std::vector<double *> &sums) {
-    for (size_t s = 0; s < sums.size(); ++s) {
-        double *__restrict sum = sums[s];
-        for (int64_t i = 0; i < count; ++i)
-            sum[i] += weights[s] * values[i];
-    }
+// Adds weight * values.
+WFPSF_VECTORISED void add_scaled(double weight, const double *__restrict values, int64_t count,
+                                 double *__restrict sums) {
+    for (int64_t i = 0; i < count; ++i)
+        sums[i] += weight * values[i];
 }
 
 // One wavelength's image: what it is made of, and where its samples along an axis lie among those
@@ -91,11 +87,10 @@ class Rows {
 
     Rows(std::span<const Plane<double>> images, int64_t taps)
         : images_(images), combined_(tile, most + taps + 1), lines_(tile, together),
-          turned_(most, images[0].nx()), sums_(most) {}
+          turned_(most, images[0].nx()) {}
 
-    // Calls column(x, values) with all samples of the rows, and some more that stand for nothing.
-    template <class Column>
-    void make(const SizedColour &colour, int64_t first, int64_t last, const Column &column) {
+    // Rows first..last-1 of an image as columns: (y - first, x).
+    void make(const SizedColour &colour, int64_t first, int64_t last, Plane<double> &out) {
         const auto size = static_cast<int64_t>(colour.first.size());
         const int64_t left = colour.begin(0), right = colour.end(size - 1);
         for (int64_t x = left; x < right; x += tile)
@@ -103,8 +98,7 @@ class Rows {
         for (int64_t x = 0; x < size; ++x) {
             const double *const start = turned_.view().row(colour.begin(x));
             sum_blocks(colour.weights_of(x), colour.taps, &start, 1, most, blocks_for(last - first),
-                       sums_.data());
-            column(x, sums_.data());
+                       out.view().row(x));
         }
     }
 
@@ -137,8 +131,16 @@ class Rows {
 
     std::span<const Plane<double>> images_;
     Plane<double> combined_, lines_, turned_;
-    std::vector<double> sums_;
 };
+
+// Adds columns as rows from `first` on, and clears them.
+void add_turned(Plane<double> &columns, int64_t count, Plane<double> &sum, int64_t first) {
+    constexpr int64_t together = 8; // rows
+    for (int64_t y = 0; y < count; y += together)
+        for (int64_t x = 0; x < sum.nx(); ++x)
+            for (int64_t i = y; i < std::min(y + together, count); ++i)
+                sum(x, first + i) += std::exchange(columns(i, x), 0);
+}
 
 } // namespace
 
@@ -194,10 +196,11 @@ std::vector<Plane<double>> Scaling::sums(std::span<const Plane<double>> images,
         return sums;
     }
     const BandlimitedInterpolator &interpolator = samples_->interpolator();
-    std::vector<Plane<double>> turned(weights.size(), Plane<double>(size, size)); // (y, x)
+    for (size_t s = 0; s < weights.size(); ++s)
+        sums.emplace_back(size, size);
     Rows rows(images, interpolator.taps());
-    std::vector<double> own(weights.size());
-    std::vector<double *> columns(weights.size());
+    Plane<double> image(Rows::most, size);
+    std::vector<Plane<double>> columns(weights.size(), image); // of the sums of some colours
     // A few colours at a time: their weights stay in the cache, and so do the rows that they share.
     constexpr size_t together = 8;
     for (size_t begin = 0; begin < colours.size(); begin += together) {
@@ -212,22 +215,14 @@ std::vector<Plane<double>> Scaling::sums(std::span<const Plane<double>> images,
                                                               static_cast<double>(size)) /
                             static_cast<double>(colours.size()));
             for (size_t k = begin; k < end; ++k) {
+                rows.make(some[k - begin], first, last, image);
                 for (size_t s = 0; s < weights.size(); ++s)
-                    own[s] = weights[s][k];
-                rows.make(some[k - begin], first, last, [&](int64_t x, const double *values) {
-                    for (size_t s = 0; s < weights.size(); ++s)
-                        columns[s] = &turned[s](first, x);
-                    add_to_all(values, last - first, own, columns);
-                });
+                    add_scaled(weights[s][k], image.view().data, Rows::most * size,
+                               columns[s].view().data);
             }
+            for (size_t s = 0; s < weights.size(); ++s)
+                add_turned(columns[s], last - first, sums[s], first);
         }
-    }
-    for (Plane<double> &plane : turned) {
-        auto &sum = sums.emplace_back(Plane<double>::unset(size, size));
-        for (int64_t y = 0; y < size; ++y)
-            for (int64_t x = 0; x < size; ++x)
-                sum(x, y) = plane(y, x);
-        plane = {};
     }
     return sums;
 }
