@@ -133,13 +133,14 @@ class Rows {
     Plane<double> combined_, lines_, turned_;
 };
 
-// Adds columns as rows from `first` on, and clears them.
+// Adds the first `count` rows of columns to a plane's rows from `first` on, and clears them all.
 void add_turned(Plane<double> &columns, int64_t count, Plane<double> &sum, int64_t first) {
     constexpr int64_t together = 8; // rows
     for (int64_t y = 0; y < count; y += together)
         for (int64_t x = 0; x < sum.nx(); ++x)
             for (int64_t i = y; i < std::min(y + together, count); ++i)
-                sum(x, first + i) += std::exchange(columns(i, x), 0);
+                sum(x, first + i) += columns(i, x);
+    std::fill_n(columns.view().data, columns.nx() * columns.ny(), 0.0);
 }
 
 } // namespace
