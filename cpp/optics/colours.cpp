@@ -24,14 +24,13 @@ struct Paths {
           count(static_cast<size_t>(longest / step) + 2) {}
 };
 
-// The sum of a wave in 1 / wavelength over a spectrum, by optical path difference; the image of
-// each wavelength is as bright as its square tells, in units of the bluest one's.
+// The sum of a wave in 1 / wavelength over a spectrum, by optical path difference.
 using Fringes = std::vector<std::complex<double>>;
-void add(std::span<const double> wavelength, std::span<const double> weight, double blue,
-         const Paths &paths, Fringes &sums) {
+void add(std::span<const double> wavelength, std::span<const double> weight, const Paths &paths,
+         Fringes &sums) {
     for (size_t i = 0; i < wavelength.size(); ++i) {
         const std::complex<double> turn = std::polar(1.0, 2 * pi * paths.step / wavelength[i]);
-        std::complex<double> wave = weight[i] * std::pow(blue / wavelength[i], 2);
+        std::complex<double> wave = weight[i];
         for (std::complex<double> &sum : sums) {
             sum += wave;
             wave *= turn;
@@ -41,12 +40,12 @@ void add(std::span<const double> wavelength, std::span<const double> weight, dou
 
 // What a rule misses of a spectrum's fringes, where they are brightest. Light at a distance from
 // the axis mixes all paths up to the longest there.
-double error_of(const WavelengthRule &rule, const std::vector<double> &weights, double blue,
-                const Paths &paths, const Brightness &brightness, Fringes of_spectrum) {
+double error_of(const WavelengthRule &rule, const std::vector<double> &weights, const Paths &paths,
+                const Brightness &brightness, Fringes of_spectrum) {
     std::vector<double> less;
     for (const double weight : weights)
         less.push_back(-weight);
-    add(rule.wavelengths(), less, blue, paths, of_spectrum);
+    add(rule.wavelengths(), less, paths, of_spectrum);
     double missed = 0, most = 0;
     for (size_t i = 1; i < paths.count; ++i) {
         missed = std::max(missed, std::abs(of_spectrum[i]));
@@ -94,16 +93,15 @@ ColourChoice choose_wavelengths(std::span<const Spectrum> spectra, double longes
     std::vector<Fringes> fringes;
     for (const Spectrum &spectrum : spectra) {
         fringes.emplace_back(paths.count);
-        add(spectrum.wavelength, spectrum.weight, blue, paths, fringes.back());
+        add(spectrum.wavelength, spectrum.weight, paths, fringes.back());
     }
     for (size_t n = usual_size(flat_range(all), longest_path, brightness, eps);; n += 1 + n / 16) {
         ColourChoice choice{WavelengthRule(all, n), {}, 0};
         for (size_t s = 0; s < spectra.size() && choice.error <= eps; ++s) {
             choice.weights.push_back(choice.rule.weights(spectra[s]));
             if (!choice.rule.exact())
-                choice.error =
-                    std::max(choice.error, error_of(choice.rule, choice.weights.back(), blue, paths,
-                                                    brightness, fringes[s]));
+                choice.error = std::max(choice.error, error_of(choice.rule, choice.weights.back(),
+                                                               paths, brightness, fringes[s]));
         }
         if (choice.error <= eps)
             return choice;

@@ -92,7 +92,7 @@ struct Images {
 // How bright images are at most from a distance on, in grid samples.
 class Profile {
   public:
-    explicit Profile(std::span<const Plane<double>> images) {
+    Profile(std::span<const Plane<double>> images, double area) : peak_(area * area) {
         const double half = static_cast<double>(images[0].nx() - 1) / 2;
         brightest_.resize(static_cast<size_t>(std::numbers::sqrt2 * half) + 2);
         constexpr int64_t run = 16; // samples, all counted as if at the farther end
@@ -111,11 +111,25 @@ class Profile {
         for (size_t i = brightest_.size() - 1; i-- > 0;)
             brightest_[i] = std::max(brightest_[i], brightest_[i + 1]);
     }
+    // Seen at that distance, in units of the unaberrated peak of the bluest light; `range` is its
+    // wavelength over the reddest one's. Redder images are wider, and dimmer.
+    double in_any_colour(double distance, double range) const {
+        constexpr int steps = 8;
+        double most = 0;
+        for (int i = 0; i < steps; ++i) {
+            const double redder = std::lerp(range, 1, static_cast<double>(i) / steps);
+            const double bluer = std::lerp(range, 1, static_cast<double>(i + 1) / steps);
+            most = std::max(most, bluer * bluer * beyond(distance * redder));
+        }
+        return most / peak_;
+    }
+
+  private:
     double beyond(double distance) const {
         return brightest_[std::min(static_cast<size_t>(distance), brightest_.size() - 1)];
     }
 
-  private:
+    double peak_;
     std::vector<double> brightest_; // from so many samples on
 };
 
@@ -204,12 +218,11 @@ std::vector<Field> make_fields(const Optics &optics, std::span<const Light> ligh
         const Scaling scaling(maker, bluest, reddest, shares.of_scaling * tolerance);
         manners.require_memory(memory(maker, scaling, lights.size()), "a field of that radius");
         const Images images(maker, scaling, manners.progress.between(0, 0.6));
-        const Profile profile(images.intensity);
-        const double area = optics.aperture->area();
+        const Profile profile(images.intensity, optics.aperture->area());
         const auto [rule, weights, missed] = choose_wavelengths(
             spectra, maker.longest_path(),
             [&](double path) {
-                return profile.beyond(maker.distance(path) * bluest / reddest) / (area * area);
+                return profile.in_any_colour(maker.distance(path), bluest / reddest);
             },
             shares.of_rule * tolerance);
         std::vector<Field> fields = fields_of(maker, scaling, images, rule.wavelengths(), weights,
