@@ -10,6 +10,7 @@
 #include "numerics/bandlimited.hpp"
 #include "optics/pupil_raster.hpp"
 #include "optics/wavefront.hpp"
+#include "optics/wavefront_pairs.hpp"
 
 #include <memory>
 #include <span>
@@ -75,6 +76,9 @@ class Aperture {
     virtual std::vector<Plane<double>> changes(const Wavefront &wavefront,
                                                std::span<const Wavefront> by, double wavelength,
                                                const FocalGrid &grid, double eps) const = 0;
+
+    // Of a wavefront at the lit points.
+    virtual WavefrontPairs pairs(const Wavefront &wavefront) const = 0;
 
     // The pupil drawn on nx by ny square pixels, or a mask's own pixels, however many.
     virtual PupilRaster raster(int64_t nx, int64_t ny) const = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "optics/colours.hpp"
 
+#include "numerics/quadrature.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -13,62 +15,96 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-} // namespace
+// Where the fringes of a band are looked at: an eighth of a turn over half of it apart.
+struct Paths {
+    double step;
+    size_t count;
+    Paths(double blue, double red, double longest)
+        : step(blue < red ? 1 / (4 * (1 / blue - 1 / red)) : longest),
+          count(static_cast<size_t>(longest / step) + 2) {}
+};
 
-Shares shares_of(double eps, const Spectrum &spectrum) {
-    const double for_colour = spectrum.size() > 1 ? eps / 2 : 0;
-    return {for_colour, eps - for_colour};
-}
-
-double brightness(double path, double wavelength) {
-    const double phase = pi * path / wavelength;
-    return 1 / (1 + phase * phase);
-}
-
-FringeErrors::FringeErrors(const WavelengthRule &rule, const std::vector<double> &weights,
-                           const Spectrum &spectrum, double longest_path)
-    // An eighth of a turn over half the range of 1 / wavelength.
-    : step_(1 / (8 * rule.half_range())), worst_(static_cast<size_t>(longest_path / step_) + 2) {
-    std::vector<std::complex<double>> sum(worst_.size());
-    const auto add = [&](double wavelength, double weight) {
-        const std::complex<double> turn = std::polar(1.0, 2 * pi * step_ / wavelength);
-        std::complex<double> wave = weight;
-        for (std::complex<double> &s : sum) {
-            s += wave;
+// The sum of a wave in 1 / wavelength over a spectrum, by optical path difference.
+using Fringes = std::vector<std::complex<double>>;
+void add(std::span<const double> wavelength, std::span<const double> weight, const Paths &paths,
+         Fringes &sums) {
+    for (size_t i = 0; i < wavelength.size(); ++i) {
+        const std::complex<double> turn = std::polar(1.0, 2 * pi * paths.step / wavelength[i]);
+        std::complex<double> wave = weight[i];
+        for (std::complex<double> &sum : sums) {
+            sum += wave;
             wave *= turn;
         }
-    };
-    for (size_t i = 0; i < spectrum.size(); ++i)
-        add(spectrum.wavelength[i], spectrum.weight[i]);
-    for (size_t k = 0; k < rule.size(); ++k)
-        add(rule.wavelengths()[k], -weights[k]);
-    for (size_t i = 1; i < sum.size(); ++i)
-        worst_[i] = std::max(worst_[i - 1], std::abs(sum[i]));
+    }
 }
 
-double FringeErrors::up_to(double path) const {
-    return worst_[std::min(static_cast<size_t>(path / step_) + 1, worst_.size() - 1)];
-}
-
-double FringeErrors::of_image(double wavelength) const {
-    double most = 0;
-    for (size_t i = 1; i < worst_.size(); ++i)
-        most =
-            std::max(most, worst_[i] * brightness(step_ * static_cast<double>(i - 1), wavelength));
+// What a rule misses of a spectrum's fringes, where they are brightest. Light at a distance from
+// the axis mixes all paths up to the longest there.
+double error_of(const WavelengthRule &rule, const std::vector<double> &weights, const Paths &paths,
+                const Brightness &brightness, Fringes of_spectrum) {
+    std::vector<double> less;
+    for (const double weight : weights)
+        less.push_back(-weight);
+    add(rule.wavelengths(), less, paths, of_spectrum);
+    double missed = 0, most = 0;
+    for (size_t i = 1; i < paths.count; ++i) {
+        missed = std::max(missed, std::abs(of_spectrum[i]));
+        most = std::max(most, missed * brightness(paths.step * static_cast<double>(i - 1)));
+    }
     return most;
 }
 
-ColourChoice choose_wavelengths(const Spectrum &spectrum, double longest_path, double eps) {
-    const auto [blue, red] = std::ranges::minmax(spectrum.wavelength);
-    const double turns = std::numbers::pi * longest_path * (1 / blue - 1 / red);
-    for (auto n = static_cast<size_t>(3 + turns / 6);; n += 1 + n / 16) {
-        WavelengthRule rule(spectrum, n);
-        const double error =
-            rule.exact()
-                ? 0
-                : FringeErrors(rule, rule.own_weights(), spectrum, longest_path).of_image(blue);
-        if (error <= eps)
-            return {std::move(rule), error};
+// The range of a flat spectrum in 1 / wavelength that varies as much.
+double flat_range(const Spectrum &spectrum) {
+    double mean = 0, squares = 0;
+    for (size_t i = 0; i < spectrum.size(); ++i)
+        mean += spectrum.weight[i] / spectrum.wavelength[i];
+    for (size_t i = 0; i < spectrum.size(); ++i)
+        squares += spectrum.weight[i] * std::pow(1 / spectrum.wavelength[i] - mean, 2);
+    return std::sqrt(12 * squares);
+}
+
+// How many points a rule needs that misses so little of a flat spectrum.
+size_t usual_size(double range, double longest_path, const Brightness &brightness, double eps) {
+    constexpr int places = 16;
+    int most = 2;
+    for (int i = 1; i <= places; ++i) {
+        const double path = longest_path * i / places;
+        if (const double missed = eps / brightness(path); missed < 1)
+            most = std::max(most, gauss_legendre_points(pi * path * range, missed));
+    }
+    return static_cast<size_t>(most);
+}
+
+} // namespace
+
+Brightness usual_brightness(double wavelength) {
+    return [wavelength](double path) {
+        const double phase = pi * path / wavelength;
+        return 1 / (1 + phase * phase);
+    };
+}
+
+ColourChoice choose_wavelengths(std::span<const Spectrum> spectra, double longest_path,
+                                const Brightness &brightness, double eps) {
+    const Spectrum all = together(spectra);
+    const auto [blue, red] = std::ranges::minmax(all.wavelength);
+    const Paths paths(blue, red, longest_path);
+    std::vector<Fringes> fringes;
+    for (const Spectrum &spectrum : spectra) {
+        fringes.emplace_back(paths.count);
+        add(spectrum.wavelength, spectrum.weight, paths, fringes.back());
+    }
+    for (size_t n = usual_size(flat_range(all), longest_path, brightness, eps);; n += 1 + n / 16) {
+        ColourChoice choice{WavelengthRule(all, n), {}, 0};
+        for (size_t s = 0; s < spectra.size() && choice.error <= eps; ++s) {
+            choice.weights.push_back(choice.rule.weights(spectra[s]));
+            if (!choice.rule.exact())
+                choice.error = std::max(choice.error, error_of(choice.rule, choice.weights.back(),
+                                                               paths, brightness, fringes[s]));
+        }
+        if (choice.error <= eps)
+            return choice;
     }
 }
 

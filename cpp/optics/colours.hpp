@@ -4,45 +4,28 @@
 
 #include "optics/spectrum.hpp"
 
-#include <cstddef>
+#include <functional>
+#include <span>
 #include <vector>
 
 namespace wfpsf {
 
-// How wavelengths and everything else share a tolerance; light of one colour needs none of it.
-struct Shares {
-    double for_colour, for_the_rest;
-};
-Shares shares_of(double eps, const Spectrum &spectrum);
+// How bright an image is at most where the optical path difference across the pupil is at least so
+// long, in units of the peak.
+using Brightness = std::function<double(double path)>;
 
-// How bright an image is, at most and about, where the optical path difference across the pupil is
-// so large, in units of the peak: spikes fall as the square of the radius, rings as the cube.
-double brightness(double path, double wavelength);
+// By what is known beforehand, about: spikes fall as the square of the radius, rings as the cube.
+Brightness usual_brightness(double wavelength);
 
-// What a rule's sum over a spectrum misses of a wave in 1 / wavelength, by optical path difference:
-// of any wave up to that path, since light at a distance from the axis mixes them all.
-class FringeErrors {
-  public:
-    // `weights`: the rule's for the spectrum.
-    FringeErrors(const WavelengthRule &rule, const std::vector<double> &weights,
-                 const Spectrum &spectrum, double longest_path);
-
-    double up_to(double path) const;
-    // The largest one times the brightness there.
-    double of_image(double wavelength) const;
-
-  private:
-    double step_; // of the path
-    std::vector<double> worst_;
-};
-
-// As few wavelengths as an image needs out to where the path is so long, by what is known of it
-// beforehand: far out it changes fastest with colour, near the core it is brightest. Errors in
-// units of the peak.
+// As few wavelengths as the images of all spectra need out to where the path is so long: far out
+// they change fastest with colour, near the core they are brightest. Errors in units of the peak of
+// the bluest light.
 struct ColourChoice {
     WavelengthRule rule;
+    std::vector<std::vector<double>> weights; // by spectrum
     double error;
 };
-ColourChoice choose_wavelengths(const Spectrum &spectrum, double longest_path, double eps);
+ColourChoice choose_wavelengths(std::span<const Spectrum> spectra, double longest_path,
+                                const Brightness &brightness, double eps);
 
 } // namespace wfpsf

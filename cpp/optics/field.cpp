@@ -4,10 +4,12 @@
 #include "optics/colours.hpp"
 #include "optics/image_maker.hpp"
 #include "optics/resample.hpp"
+#include "optics/scaling.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace wfpsf {
 
@@ -52,141 +54,142 @@ double faintest_near(const Plane<double> &value, int64_t per_pixel, int64_t peak
     return between * std::min(on_grid, half_way);
 }
 
-// Some pixels of the images of all wavelengths, and what they tell of the rule.
-class ColourCheck {
-  public:
-    explicit ColourCheck(const WavelengthRule &rule) : rule_(rule) {}
+// Bytes that so many fields take while they are made: the last image, and all planes of its size.
+int64_t memory(const ImageMaker &maker, const Scaling &scaling, size_t fields) {
+    const FocalGrid grid = scaling.grid(scaling.wavelengths()[0]);
+    const auto planes = static_cast<int64_t>(scaling.wavelengths().size() + 2 * fields);
+    return maker.memory(grid) +
+           planes * grid.size * grid.size * static_cast<int64_t>(sizeof(double));
+}
 
-    // `stride` grid samples lie between two of the pixels.
-    static constexpr int64_t stride = 5;
-    void see(Plane<double> pixels, double scale) {
-        for (int64_t y = 0; y < pixels.ny(); ++y)
-            for (int64_t x = 0; x < pixels.nx(); ++x)
-                pixels(x, y) *= scale;
-        images_.push_back(std::move(pixels));
+// What errors come from, in shares of a tolerance.
+struct Shares {
+    double of_images, of_scaling, of_rule;
+    explicit Shares(bool many_colours)
+        : of_images(many_colours ? 0.35 : 1), of_scaling(many_colours ? 0.15 : 0),
+          of_rule(many_colours ? 0.5 : 0) {}
+};
+
+// The images that those of all wavelengths are made of.
+struct Images {
+    std::vector<Plane<double>> intensity;
+    std::vector<double> error, model_error;
+    int64_t nodes = 0;
+
+    Images(const ImageMaker &maker, const Scaling &scaling, const Progress &progress) {
+        const std::vector<double> &wavelengths = scaling.wavelengths();
+        for (size_t j = 0; j < wavelengths.size(); ++j) {
+            progress.report(static_cast<double>(j) / static_cast<double>(wavelengths.size()));
+            Diffraction image = maker.diffract(wavelengths[j], scaling.grid(wavelengths[j]));
+            intensity.push_back(std::move(image.intensity));
+            error.push_back(image.error);
+            model_error.push_back(image.model_error);
+            nodes += image.nodes;
+        }
     }
+};
 
-    // The largest error of any pixel, by two measures of which the smaller counts.
-    double error(const Spectrum &spectrum, const std::vector<double> &weights,
-                 const ImageMaker &maker) const {
-        if (rule_.exact())
-            return 0;
-        const FringeErrors fringes(rule_, weights, spectrum, maker.longest_path());
-        const double high = rule_.high_moment(spectrum);
-        const double middle = static_cast<double>(images_[0].nx() - 1) / 2;
-        double most = 0;
-        for (int64_t y = 0; y < images_[0].ny(); ++y)
-            for (int64_t x = 0; x < images_[0].nx(); ++x) {
-                const double distance =
-                    std::hypot(static_cast<double>(x) - middle, static_cast<double>(y) - middle);
-                const double missed = fringes.up_to(maker.path(distance * stride));
-                most = std::max(most, std::min(range(x, y) * missed, beyond(x, y, high)));
+// How bright images are at most from a distance on, in grid samples.
+class Profile {
+  public:
+    Profile(std::span<const Plane<double>> images, double area) : peak_(area * area) {
+        const double half = static_cast<double>(images[0].nx() - 1) / 2;
+        brightest_.resize(static_cast<size_t>(std::numbers::sqrt2 * half) + 2);
+        constexpr int64_t run = 16; // samples, all counted as if at the farther end
+        for (const Plane<double> &image : images)
+            for (int64_t y = 0; y < image.ny(); ++y) {
+                const double *const row = image.view().row(y);
+                for (int64_t x = 0; x < image.nx(); x += run) {
+                    const int64_t end = std::min(x + run, image.nx());
+                    const double farther = std::max(std::abs(static_cast<double>(x) - half),
+                                                    std::abs(static_cast<double>(end - 1) - half));
+                    double &most = brightest_[static_cast<size_t>(
+                        std::hypot(farther, static_cast<double>(y) - half))];
+                    most = std::max(most, *std::max_element(row + x, row + end));
+                }
             }
-        return most;
+        for (size_t i = brightest_.size() - 1; i-- > 0;)
+            brightest_[i] = std::max(brightest_[i], brightest_[i + 1]);
+    }
+    // Seen at that distance, in units of the unaberrated peak of the bluest light; `range` is its
+    // wavelength over the reddest one's. Redder images are wider, and dimmer.
+    double in_any_colour(double distance, double range) const {
+        constexpr int steps = 8;
+        double most = 0;
+        for (int i = 0; i < steps; ++i) {
+            const double redder = std::lerp(range, 1, static_cast<double>(i) / steps);
+            const double bluer = std::lerp(range, 1, static_cast<double>(i + 1) / steps);
+            most = std::max(most, bluer * bluer * beyond(distance * redder));
+        }
+        return most / peak_;
     }
 
   private:
-    // A pixel varies with 1 / wavelength like waves of optical path differences up to the one
-    // across the pupil: as much as it is seen to vary, times what the rule misses of those.
-    double range(int64_t x, int64_t y) const {
-        double low = INFINITY, top = -INFINITY;
-        for (const Plane<double> &image : images_) {
-            low = std::min(low, image(x, y));
-            top = std::max(top, image(x, y));
-        }
-        return top - low;
+    double beyond(double distance) const {
+        return brightest_[std::min(static_cast<size_t>(distance), brightest_.size() - 1)];
     }
 
-    // A pixel's components along polynomials fall ever faster with their degree: those of degree n
-    // to 2n at least as steeply as the half below, of which half the credit is taken. Those of
-    // degree n count as far as a spectrum holds the like.
-    double beyond(int64_t x, int64_t y, double high) const {
-        const size_t n = rule_.size();
-        const auto component = [&](size_t degree) {
-            double sum = 0;
-            for (size_t k = 0; k < n; ++k)
-                sum += rule_.component(degree, k) * images_[k](x, y);
-            return std::abs(sum);
-        };
-        const double last = std::max(component(n - 1), component(n - 2));
-        const double half = std::max({component(n / 2), component(n / 2 - 1), last});
-        return half > 0 ? 2 * last * (last / half + high) : 0;
-    }
-
-    const WavelengthRule &rule_;
-    std::vector<Plane<double>> images_;
+    double peak_;
+    std::vector<double> brightest_; // from so many samples on
 };
 
-// A sum of images of several wavelengths for one spectrum, as fractions of the light.
-struct Sum {
-    Plane<double> intensity;
-    std::vector<double> weights;
-    double unaberrated_peak = 0, error = 0, model_error = 0;
-
-    void add(const Diffraction &d, double scale_of_light, double peak_of_light, double weight) {
-        const int64_t nx = d.intensity.nx(), ny = d.intensity.ny();
-        if (intensity.nx() == 0)
-            intensity = Plane<double>(nx, ny);
-        const double scale = weight * scale_of_light;
-        for (int64_t y = 0; y < ny; ++y)
-            for (int64_t x = 0; x < nx; ++x)
-                intensity(x, y) += scale * d.intensity(x, y);
-        const double peak = std::abs(weight) * peak_of_light;
-        unaberrated_peak += peak;
-        error += peak * d.error;
-        model_error += peak * d.model_error;
-    }
-};
-
-Field field_of(const ImageMaker &maker, const Sum &sum) {
-    Field field(maker.interpolator());
-    field.per_pixel = maker.per_pixel();
-    field.grid_size = maker.grid().size;
-    field.value = maker.averaged(sum.intensity);
-    field.find_peaks();
-    field.error = (sum.error + sum.unaberrated_peak * maker.filter_error()) / field.faintest_peak;
-    field.model_error = sum.model_error / field.faintest_peak;
-    return field;
-}
-
-struct Attempt {
+// The sums over the rule's wavelengths, one a row of weights.
+std::vector<Field> fields_of(const ImageMaker &maker, const Scaling &scaling, const Images &images,
+                             std::span<const double> wavelengths,
+                             std::span<const std::vector<double>> weights,
+                             const Progress &progress) {
+    std::vector<std::vector<double>> scaled(weights.begin(), weights.end());
+    for (std::vector<double> &own : scaled)
+        for (size_t k = 0; k < own.size(); ++k)
+            own[k] *= maker.scale(wavelengths[k]);
     std::vector<Field> fields;
-    double error = 0, colour_error = 0; // the largest ones; the first without the second
-};
-
-Attempt attempt(const ImageMaker &maker, const WavelengthRule &rule,
-                std::span<const Spectrum> spectra, const Progress &progress) {
-    std::vector<Sum> sums(spectra.size());
-    for (size_t s = 0; s < spectra.size(); ++s)
-        sums[s].weights = rule.weights(spectra[s]);
-    ColourCheck check(rule);
-    int64_t nodes = 0;
-    for (size_t k = 0; k < rule.size(); ++k) {
-        progress.report(static_cast<double>(k) / static_cast<double>(rule.size()));
-        const double wavelength = rule.wavelengths()[k];
-        const Diffraction image = maker.diffract(wavelength);
-        if (!rule.exact())
-            check.see(maker.averaged(image.intensity, ColourCheck::stride),
-                      maker.scale(wavelength));
-        nodes += image.nodes;
-        for (Sum &sum : sums)
-            sum.add(image, maker.scale(wavelength), maker.unaberrated_peak(wavelength),
-                    sum.weights[k]);
+    for (Plane<double> &sum : scaling.sums(images.intensity, wavelengths, scaled, progress)) {
+        Field &field = fields.emplace_back(maker.interpolator());
+        field.per_pixel = maker.per_pixel();
+        field.grid_size = maker.grid().size;
+        field.nodes = images.nodes;
+        field.value = maker.averaged(std::exchange(sum, {}));
+        field.find_peaks();
     }
-    Attempt result;
-    for (size_t s = 0; s < spectra.size(); ++s) {
-        Field &field = result.fields.emplace_back(field_of(maker, sums[s]));
-        field.nodes = nodes;
-        for (size_t k = 0; k < rule.size(); ++k)
-            field.colours.push_back({rule.wavelengths()[k], sums[s].weights[k]});
-        result.error = std::max(result.error, field.error);
-        const double colour_error =
-            check.error(spectra[s], sums[s].weights, maker) / field.faintest_peak;
-        result.colour_error = std::max(result.colour_error, colour_error);
-        field.error += colour_error;
+    for (size_t k = 0; k < wavelengths.size(); ++k) {
+        const std::vector<double> shares = scaling.shares(wavelengths[k]);
+        double error = scaling.error() + maker.filter_error(), model_error = 0;
+        for (size_t j = 0; j < shares.size(); ++j) {
+            error += std::abs(shares[j]) * images.error[j];
+            model_error += shares[j] * images.model_error[j];
+        }
+        for (size_t s = 0; s < fields.size(); ++s) {
+            Field &field = fields[s];
+            const double in_peaks = std::abs(weights[s][k]) *
+                                    maker.unaberrated_peak(wavelengths[k]) / field.faintest_peak;
+            field.error += in_peaks * error;
+            field.model_error += in_peaks * std::abs(model_error);
+            field.colours.push_back({wavelengths[k], weights[s][k]});
+        }
     }
-    return result;
+    return fields;
 }
+
+// What the field of other optics is made by as one was.
+struct Remaking {
+    ImageMaker maker;
+    Scaling scaling;
+    std::vector<double> wavelengths, weights;
+
+    Remaking(const Field &like, const Optics &optics, const PsfSettings &settings, double radius)
+        : maker(optics, settings, like.shortest_wavelength, radius,
+                shares(like).of_images * like.tolerance),
+          scaling(maker, like.shortest_wavelength, like.longest_wavelength,
+                  shares(like).of_scaling * like.tolerance) {
+        for (const Colour &colour : like.colours) {
+            wavelengths.push_back(colour.wavelength);
+            weights.push_back(colour.weight);
+        }
+    }
+    static Shares shares(const Field &like) {
+        return Shares(like.shortest_wavelength < like.longest_wavelength);
+    }
+};
 
 } // namespace
 
@@ -196,56 +199,56 @@ Attempt attempt(const ImageMaker &maker, const WavelengthRule &rule,
 std::vector<Field> make_fields(const Optics &optics, std::span<const Light> lights,
                                const PsfSettings &settings, double radius, const Manners &manners) {
     const KeptMemory kept;
-    const auto colours = [&lights](double path) {
+    const auto spectra_for = [&lights](double path) {
         std::vector<Spectrum> spectra;
         for (const Light &light : lights)
             spectra.push_back(light(path));
         return spectra;
     };
-    Spectrum all = together(colours(0));
-    const double blue = std::ranges::min(all.wavelength);
+    const Spectrum all = together(spectra_for(0));
+    const auto [blue, red] = std::ranges::minmax(all.wavelength);
+    const Shares shares(blue < red);
     const double pixel = settings.pixel_scale / blue;
     const double ratio = guessed_ratio(optics.aperture->area() * pixel * pixel);
-    const auto [for_colour, for_the_rest] = shares_of(settings.eps, all);
-    double tolerance = for_the_rest / ratio;
-    double for_rule = 2 * for_colour; // the rule's own bound is wide
+    double tolerance = settings.eps / ratio;
     for (int count = 0;; ++count) {
-        const ImageMaker maker(optics, settings, blue, radius, tolerance);
-        manners.require_memory(maker.memory(lights.size()), "a field of that radius");
-        const std::vector<Spectrum> spectra = colours(maker.longest_path());
-        all = together(spectra);
-        const WavelengthRule rule = choose_wavelengths(all, maker.longest_path(), for_rule).rule;
-        Attempt made = attempt(maker, rule, spectra, manners.progress);
-        const bool good = made.error <= for_the_rest && made.colour_error <= for_colour;
-        if (good || count == 4 || tolerance < 1e-15) {
-            for (Field &field : made.fields) {
-                field.shortest_wavelength = blue;
-                field.tolerance = tolerance;
-            }
-            return std::move(made.fields);
+        const ImageMaker maker(optics, settings, blue, radius, shares.of_images * tolerance);
+        const std::vector<Spectrum> spectra = spectra_for(maker.longest_path());
+        const auto [bluest, reddest] = std::ranges::minmax(together(spectra).wavelength);
+        const Scaling scaling(maker, bluest, reddest, shares.of_scaling * tolerance);
+        manners.require_memory(memory(maker, scaling, lights.size()), "a field of that radius");
+        const Images images(maker, scaling, manners.progress.between(0, 0.6));
+        const Profile profile(images.intensity, optics.aperture->area());
+        const auto [rule, weights, missed] = choose_wavelengths(
+            spectra, maker.longest_path(),
+            [&](double path) {
+                return profile.in_any_colour(maker.distance(path), bluest / reddest);
+            },
+            shares.of_rule * tolerance);
+        std::vector<Field> fields = fields_of(maker, scaling, images, rule.wavelengths(), weights,
+                                              manners.progress.between(0.6, 1));
+        double error = 0;
+        for (Field &field : fields) {
+            field.shortest_wavelength = bluest;
+            field.longest_wavelength = reddest;
+            field.tolerance = tolerance;
+            field.error += missed * maker.unaberrated_peak(bluest) / field.faintest_peak;
+            error = std::max(error, field.error);
         }
-        if (made.error > for_the_rest)
-            tolerance *= 0.7 * for_the_rest / made.error;
-        if (made.colour_error > for_colour)
-            for_rule /= 3;
+        if (error <= settings.eps || count == 4 || tolerance < 1e-15)
+            return fields;
+        tolerance *= 0.7 * settings.eps / error;
     }
 }
 
 Field make_field_like(const Field &like, const Optics &optics, const PsfSettings &settings,
                       double radius) {
-    const ImageMaker maker(optics, settings, like.shortest_wavelength, radius, like.tolerance);
-    Sum sum;
-    int64_t nodes = 0;
-    for (const Colour &colour : like.colours) {
-        const Diffraction image = maker.diffract(colour.wavelength);
-        nodes += image.nodes;
-        sum.add(image, maker.scale(colour.wavelength), maker.unaberrated_peak(colour.wavelength),
-                colour.weight);
-    }
-    Field field = field_of(maker, sum);
-    field.nodes = nodes;
-    field.colours = like.colours;
+    const Remaking as(like, optics, settings, radius);
+    const Images images(as.maker, as.scaling, {});
+    Field field =
+        std::move(fields_of(as.maker, as.scaling, images, as.wavelengths, {&as.weights, 1}, {})[0]);
     field.shortest_wavelength = like.shortest_wavelength;
+    field.longest_wavelength = like.longest_wavelength;
     field.tolerance = like.tolerance;
     return field;
 }
@@ -253,22 +256,23 @@ Field make_field_like(const Field &like, const Optics &optics, const PsfSettings
 std::vector<Field> make_field_changes(const Field &like, const Optics &optics,
                                       std::span<const Wavefront> by, const PsfSettings &settings,
                                       double radius) {
-    const ImageMaker maker(optics, settings, like.shortest_wavelength, radius, like.tolerance);
-    const int64_t size = maker.grid().size;
-    std::vector<Plane<double>> sums(by.size(), Plane<double>(size, size));
-    for (const Colour &colour : like.colours) {
-        const double scale = colour.weight * maker.scale(colour.wavelength);
-        const std::vector<Plane<double>> changes = maker.changes(colour.wavelength, by);
+    const Remaking as(like, optics, settings, radius);
+    // By waves at each wavelength, an image changes as smoothly with it as it does itself.
+    std::vector<double> weights = as.weights;
+    for (size_t k = 0; k < weights.size(); ++k)
+        weights[k] *= as.maker.scale(as.wavelengths[k]) * optics.wavelength / as.wavelengths[k];
+    std::vector<std::vector<Plane<double>>> changes(by.size()); // by wavelength
+    for (const double wavelength : as.scaling.wavelengths()) {
+        auto of_all = as.maker.changes(wavelength, by, as.scaling.grid(wavelength));
         for (size_t i = 0; i < by.size(); ++i)
-            for (int64_t y = 0; y < size; ++y)
-                for (int64_t x = 0; x < size; ++x)
-                    sums[i](x, y) += scale * changes[i](x, y);
+            changes[i].push_back(std::move(of_all[i]));
     }
     std::vector<Field> fields;
-    for (const Plane<double> &sum : sums) {
-        Field &field = fields.emplace_back(maker.interpolator());
-        field.per_pixel = maker.per_pixel();
-        field.value = maker.averaged(sum);
+    for (std::vector<Plane<double>> &images : changes) {
+        Field &field = fields.emplace_back(as.maker.interpolator());
+        field.per_pixel = as.maker.per_pixel();
+        field.value = as.maker.averaged(
+            as.scaling.sums(std::exchange(images, {}), as.wavelengths, {&weights, 1})[0]);
     }
     return fields;
 }

@@ -56,14 +56,14 @@ struct Field {
     // the density of the light there times a native pixel's area.
     Plane<double> value;
     std::vector<Colour> colours; // that it is a sum of
-    int64_t nodes = 0;           // of the pupil, over all wavelengths
+    int64_t nodes = 0;           // of the pupil, over all wavelengths that were diffracted
     int64_t grid_size = 0;       // of the diffraction image that this was filtered from
     double peak = 0;             // largest fraction of the light in one pixel
     double faintest_peak = 0;    // smallest that the brightest pixel of a stamp may get
     double error = 0;            // estimate of the numerical error, of the stamp's peak pixel
     double model_error = 0;      // of the pupil's description, likewise
     // What grid and filters were chosen by.
-    double shortest_wavelength = 0, tolerance = 0;
+    double shortest_wavelength = 0, longest_wavelength = 0, tolerance = 0;
 
     void find_peaks(); // peak and faintest_peak from value
 
@@ -75,7 +75,7 @@ struct Field {
 };
 
 // One field a light, all from the same monochromatic images, reaching `radius` native pixels.
-// Wavelengths are added until the estimate meets settings.eps, or it is clear that it cannot.
+// Made ever better until the estimate meets settings.eps, or it is clear that it cannot.
 std::vector<Field> make_fields(const Optics &optics, std::span<const Light> lights,
                                const PsfSettings &settings, double radius,
                                const Manners &manners = {});

@@ -273,6 +273,13 @@ template <class Pupil> class GeometricAperture final : public Aperture {
         return {held, per_row + grid.size * static_cast<int64_t>(sizeof(double))};
     }
 
+    WavefrontPairs pairs(const Wavefront &wavefront) const override {
+        PupilNodes all = pupil_nodes(pupil_, 40, 1e-3);
+        std::vector<double> waves(all.size());
+        wavefront.evaluate(all.x, all.y, waves.data());
+        return {waves, all.weight};
+    }
+
     PupilRaster raster(int64_t nx, int64_t ny) const override {
         return wfpsf::raster(parts_, nx, ny);
     }

@@ -3,6 +3,7 @@
 
 #include "optics/resample.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -47,6 +48,11 @@ double ImageMaker::path(double distance) const {
            (distance * step_ + optics_.wavefront.slope_bound() * optics_.wavelength);
 }
 
+double ImageMaker::distance(double path) const {
+    const double of_wavefront = optics_.wavefront.slope_bound() * optics_.wavelength;
+    return std::max(0.0, path / optics_.aperture->diameter() - of_wavefront) / step_;
+}
+
 double ImageMaker::longest_path() const {
     return path(std::numbers::sqrt2 * grid_.half());
 }
@@ -61,17 +67,14 @@ double ImageMaker::unaberrated_peak(double wavelength) const {
     return scale(wavelength) * area * area;
 }
 
-Diffraction ImageMaker::diffract(double wavelength) const {
-    return optics_.aperture->diffract(at(wavelength, optics_.wavefront), wavelength, grid_,
+Diffraction ImageMaker::diffract(double wavelength, const FocalGrid &grid) const {
+    return optics_.aperture->diffract(at(wavelength, optics_.wavefront), wavelength, grid,
                                       for_diffraction_);
 }
 
-std::vector<Plane<double>> ImageMaker::changes(double wavelength,
-                                               std::span<const Wavefront> by) const {
-    std::vector<Wavefront> scaled;
-    for (const Wavefront &change : by)
-        scaled.push_back(at(wavelength, change));
-    return optics_.aperture->changes(at(wavelength, optics_.wavefront), scaled, wavelength, grid_,
+std::vector<Plane<double>> ImageMaker::changes(double wavelength, std::span<const Wavefront> by,
+                                               const FocalGrid &grid) const {
+    return optics_.aperture->changes(at(wavelength, optics_.wavefront), by, wavelength, grid,
                                      for_diffraction_);
 }
 
@@ -84,17 +87,17 @@ StripMemory ImageMaker::strip_memory(double wavelength) const {
     return optics_.aperture->strip_memory(wavelength, grid_, for_diffraction_);
 }
 
-int64_t ImageMaker::memory(size_t fields) const {
-    const auto [fixed, per_row] = strip_memory(shortest_wavelength_);
-    const auto plane = grid_.size * grid_.size * static_cast<int64_t>(sizeof(double));
-    return fixed + grid_.size * per_row + (2 * static_cast<int64_t>(fields) + 1) * plane;
+int64_t ImageMaker::memory(const FocalGrid &grid) const {
+    const auto [fixed, per_row] =
+        optics_.aperture->strip_memory(shortest_wavelength_, grid, for_diffraction_);
+    return fixed + grid.size * per_row;
 }
 
-Plane<double> ImageMaker::averaged(const Plane<double> &intensity, int64_t stride) const {
+Plane<double> ImageMaker::averaged(const Plane<double> &intensity) const {
     View<const double> image = intensity.view();
     if (settings_.mirrored)
         image = {image.row(image.ny - 1), image.nx, image.ny, 1, -image.stride_y};
-    return filtered(image, filter_, stride);
+    return filtered(image, filter_);
 }
 
 } // namespace wfpsf

@@ -17,6 +17,7 @@ class ImageMaker {
     ImageMaker(const Optics &optics, const PsfSettings &settings, double shortest_wavelength,
                double radius, double tolerance);
 
+    const Optics &optics() const { return optics_; }
     const FocalGrid &grid() const { return grid_; }
     int64_t per_pixel() const { return per_pixel_; } // grid samples a native pixel
     int64_t margin() const {                         // that the averages take from the grid
@@ -29,24 +30,33 @@ class ImageMaker {
     // so many grid samples from the axis.
     double path(double distance) const;
     double longest_path() const;
+    // How far from the axis it is at least that long.
+    double distance(double path) const;
 
     // |A|^2 times this is the fraction of the light that a native pixel's solid angle receives; and
     // what that is at the peak of an unaberrated image.
     double scale(double wavelength) const;
     double unaberrated_peak(double wavelength) const;
 
-    Diffraction diffract(double wavelength) const;
-    // By the factors of wavefronts in the unit of the optics' own: see Aperture::changes().
-    std::vector<Plane<double>> changes(double wavelength, std::span<const Wavefront> by) const;
+    Diffraction diffract(double wavelength, const FocalGrid &grid) const;
+    // By the factors of wavefronts in waves: see Aperture::changes().
+    std::vector<Plane<double>> changes(double wavelength, std::span<const Wavefront> by,
+                                       const FocalGrid &grid) const;
     std::unique_ptr<const DiffractionStrips> diffract_in_strips(double wavelength) const;
     StripMemory strip_memory(double wavelength) const;
-    // Bytes that so many fields take while they are made.
-    int64_t memory(size_t fields) const;
+    // Bytes that one image on a grid takes while it is made.
+    int64_t memory(const FocalGrid &grid) const;
     bool mirrored() const { return settings_.mirrored; }
 
-    // Whole rows of an intensity averaged over the pixel and blurred, on the axes of the image;
-    // with a stride, only every so many-th sample of that.
-    Plane<double> averaged(const Plane<double> &intensity, int64_t stride = 1) const;
+    // Whole rows of an intensity averaged over the pixel and blurred, on the axes of the image.
+    Plane<double> averaged(const Plane<double> &intensity) const;
+
+    // What interpolates intensities on the grid, or finer ones, to `eps` of the unaberrated peak.
+    AveragedSamples unaveraged(double eps) const {
+        return AveragedSamples(bandwidth(shortest_wavelength_), 0, optics_.aperture->outline(),
+                               eps / strength_);
+    }
+    double strength() const { return strength_; } // of the spectrum that bounds an image's
 
     // What the averages and the interpolation add to an image's error, in units of the unaberrated
     // peak.
@@ -68,7 +78,7 @@ class ImageMaker {
     const PsfSettings &settings_;
     int64_t per_pixel_;
     double step_;
-    double strength_; // of the spectrum that bounds the image's
+    double strength_;
     AveragedSamples samples_;
     SeparableFilter filter_;
     FocalGrid grid_{};

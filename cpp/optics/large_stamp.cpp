@@ -19,13 +19,14 @@ class Plan {
   public:
     Plan(const Optics &optics, const Light &light, const PsfSettings &settings,
          double faintest_peak, const StampSize &size)
-        : spectrum_(light(0)), shares_(shares_of(settings.eps, spectrum_)), peak_(faintest_peak),
-          maker_(optics, settings, blue(), size.reach,
-                 std::min(0.1, shares_.for_the_rest * peak_ / unaberrated_peak(optics, settings))),
+        : spectrum_(light(0)), for_colour_(spectrum_.size() > 1 ? settings.eps / 2 : 0),
+          peak_(faintest_peak), maker_(optics, settings, blue(), size.reach,
+                                       std::min(0.1, (settings.eps - for_colour_) * peak_ /
+                                                         unaberrated_peak(optics, settings))),
           size_(size) {}
 
     const ImageMaker &maker() const { return maker_; }
-    double for_colour() const { return shares_.for_colour; }
+    double for_colour() const { return for_colour_; }
     double blue() const { return std::ranges::min(spectrum_.wavelength); }
     // An error in units of the unaberrated peak, in those of the stamp's brightest pixel.
     double in_peaks(double error) const { return error / peak_; }
@@ -65,8 +66,7 @@ class Plan {
     }
 
     Spectrum spectrum_;
-    Shares shares_;
-    double peak_;
+    double for_colour_, peak_;
     ImageMaker maker_;
     StampSize size_;
 };
@@ -120,9 +120,10 @@ double add_large_stamp(const Optics &optics, const Light &light, const PsfSettin
     const ImageMaker &maker = plan.maker();
     const Spectrum spectrum = light(maker.longest_path());
     const double in_peaks = plan.in_peaks(maker.unaberrated_peak(plan.blue()));
-    const auto [rule, colour_error] =
-        choose_wavelengths(spectrum, maker.longest_path(), plan.for_colour() / in_peaks);
-    const std::vector<double> weights = rule.weights(spectrum);
+    const auto [rule, all_weights, colour_error] =
+        choose_wavelengths({&spectrum, 1}, maker.longest_path(), usual_brightness(plan.blue()),
+                           plan.for_colour() / in_peaks);
+    const std::vector<double> &weights = all_weights[0];
 
     const auto n = static_cast<double>(size.oversampling);
     double error = 0, unaberrated_peak = 0;

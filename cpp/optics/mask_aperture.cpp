@@ -145,6 +145,20 @@ class MaskAperture final : public Aperture {
                 grid.size * static_cast<int64_t>(sizeof(double))};
     }
 
+    WavefrontPairs pairs(const Wavefront &wavefront) const override {
+        // Of large masks, some pixels tell as much.
+        const int64_t stride = 1 + std::max(lit_.nx(), lit_.ny()) / 256;
+        std::vector<double> waves, lit;
+        for (int64_t y = 0; y < lit_.ny(); y += stride)
+            for (int64_t x = 0; x < lit_.nx(); x += stride)
+                if (lit_(x, y) > 0) {
+                    waves.push_back(
+                        wavefront(u_[static_cast<size_t>(x)], v_[static_cast<size_t>(y)]));
+                    lit.push_back(lit_(x, y));
+                }
+        return {waves, lit};
+    }
+
     PupilRaster raster(int64_t, int64_t) const override {
         if (pixels_ == MaskPixels::points)
             fail(WFPSF_ERROR_ARGUMENT, "mask: its pixels are points, which cover no area");

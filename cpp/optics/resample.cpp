@@ -2,6 +2,7 @@
 #include "optics/resample.hpp"
 
 #include "numerics/dispatch.hpp"
+#include "optics/sum_blocks.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -10,15 +11,6 @@
 namespace wfpsf {
 
 namespace {
-
-// Outputs are summed in blocks of so many, always whole ones, so that the bits of one do not depend
-// on where a range ends. The compiler keeps a block in vector registers; a shorter one it unrolls,
-// and makes no vectors of.
-constexpr int64_t block = 32;
-
-int64_t blocks_for(int64_t count) {
-    return (count + block - 1) / block * block;
-}
 
 // Sums along one axis: output i = q * phases + r takes weights[r] from input first[r] + q * step
 // on. Places that fall on the same fraction of a sample share their weights.
@@ -52,25 +44,6 @@ Sums interpolating_sums(const BandlimitedInterpolator &interpolator, const Posit
             interpolator.weights(place, &sums.weights[static_cast<size_t>(r * sums.taps)]);
     }
     return sums;
-}
-
-// sums[i] = sum over the taps of weights[tap] * input(tap)[i], for whole blocks of i. The taps of
-// one remainder modulo `step` read from starts[remainder] on, each `stride` after the one before.
-WFPSF_VECTORISED void sum_blocks(const double *weights, int64_t taps, const double *const *starts,
-                                 int64_t step, int64_t stride, int64_t count, double *sums) {
-    for (int64_t begin = 0; begin < count; begin += block) {
-        double registers[block];
-        for (int64_t i = 0; i < block; ++i)
-            registers[i] = 0;
-        for (int64_t remainder = 0; remainder < step; ++remainder) {
-            const double *__restrict inputs = starts[remainder] + begin;
-            for (int64_t tap = remainder; tap < taps; tap += step, inputs += stride)
-                for (int64_t i = 0; i < block; ++i)
-                    registers[i] += weights[tap] * inputs[i];
-        }
-        for (int64_t i = 0; i < block; ++i)
-            sums[begin + i] = registers[i];
-    }
 }
 
 // Samples of a row, sorted by their remainder modulo the step: sample i is at
@@ -169,10 +142,10 @@ template void resample(View<const double>, const BandlimitedInterpolator &, cons
 template void resample(View<const double>, const BandlimitedInterpolator &, const Positions &,
                        const Positions &, double, View<double>);
 
-Plane<double> filtered(View<const double> grid, const SeparableFilter &filter, int64_t stride) {
-    const auto shrunk = [stride](int64_t n, const std::vector<double> &taps) {
+Plane<double> filtered(View<const double> grid, const SeparableFilter &filter) {
+    const auto shrunk = [](int64_t n, const std::vector<double> &taps) {
         const auto count = static_cast<int64_t>(taps.size());
-        return Sums{0, (n - count) / stride + 1, 1, stride, count, taps, {0}};
+        return Sums{0, n - count + 1, 1, 1, count, taps, {0}};
     };
     Plane<double> sum;
     for (const SeparableFilter::Term &term : filter.terms) {

@@ -23,8 +23,7 @@ template <class T>
 void resample(View<const double> grid, const BandlimitedInterpolator &interpolator,
               const Positions &x, const Positions &y, double scale, View<T> out);
 
-// The grid filtered along both axes; smaller by the filter's half width on each side. With a
-// stride, only every so many-th sample of that.
-Plane<double> filtered(View<const double> grid, const SeparableFilter &filter, int64_t stride = 1);
+// The grid filtered along both axes; smaller by the filter's half width on each side.
+Plane<double> filtered(View<const double> grid, const SeparableFilter &filter);
 
 } // namespace wfpsf

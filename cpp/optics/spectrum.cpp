@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
+#include <utility>
 
 #include <Eigen/Eigenvalues>
 
@@ -115,11 +115,13 @@ Light detected_light(const Band &band, const Sed &sed) {
         own.throughput = samples; // which live as long as this does
         Spectrum light;
         double total = 0;
+        GaussLegendreRules rules;
         for (size_t i = 0; i + 1 < kinks.size(); ++i) {
             const double half = (kinks[i + 1] - kinks[i]) / 2;
             const double middle = (kinks[i + 1] + kinks[i]) / 2;
             const double turns = std::numbers::pi * path * 1e9 * (1 / kinks[i] - 1 / kinks[i + 1]);
-            const GaussLegendre rule(points_between_kinks + gauss_legendre_points(turns, 1e-10));
+            const GaussLegendre &rule =
+                rules.of(points_between_kinks + gauss_legendre_points(turns, 1e-10));
             for (size_t k = 0; k < rule.x.size(); ++k) {
                 const double nm = middle + half * rule.x[k];
                 const double photons =
@@ -142,16 +144,20 @@ Light detected_light(const Band &band, const Sed &sed) {
 }
 
 Spectrum together(std::span<const Spectrum> spectra) {
-    std::map<double, double> weights;
+    std::vector<std::pair<double, double>> points;
     for (const Spectrum &spectrum : spectra)
         for (size_t i = 0; i < spectrum.size(); ++i)
-            weights[spectrum.wavelength[i]] +=
-                spectrum.weight[i] / static_cast<double>(spectra.size());
+            points.emplace_back(spectrum.wavelength[i],
+                                spectrum.weight[i] / static_cast<double>(spectra.size()));
+    std::ranges::sort(points);
     Spectrum sum;
-    for (const auto &[wavelength, weight] : weights) {
-        sum.wavelength.push_back(wavelength);
-        sum.weight.push_back(weight);
-    }
+    for (const auto &[wavelength, weight] : points)
+        if (!sum.wavelength.empty() && sum.wavelength.back() == wavelength) {
+            sum.weight.back() += weight;
+        } else {
+            sum.wavelength.push_back(wavelength);
+            sum.weight.push_back(weight);
+        }
     return sum;
 }
 
@@ -167,16 +173,17 @@ WavelengthRule::WavelengthRule(const Spectrum &spectrum, size_t n) {
 
     // Stieltjes: orthonormal polynomials p_j on the spectrum's own points,
     // beta_(j+1) p_(j+1) = (x - alpha_j) p_j - beta_j p_(j-1).
-    std::vector<double> p(spectrum.size(), 1), below(spectrum.size(), 0);
+    std::vector<double> x, p(spectrum.size(), 1), below(spectrum.size(), 0);
+    for (const double wavelength : spectrum.wavelength)
+        x.push_back(scaled(wavelength));
     for (size_t j = 0; j < n; ++j) {
         double alpha = 0;
-        const auto x = [&](size_t i) { return scaled(spectrum.wavelength[i]); };
         for (size_t i = 0; i < p.size(); ++i)
-            alpha += spectrum.weight[i] * x(i) * p[i] * p[i];
+            alpha += spectrum.weight[i] * x[i] * p[i] * p[i];
         alpha_.push_back(alpha);
         double norm = 0;
         for (size_t i = 0; i < p.size(); ++i) {
-            const double above = (x(i) - alpha) * p[i] - (j > 0 ? beta_.back() : 0) * below[i];
+            const double above = (x[i] - alpha) * p[i] - (j > 0 ? beta_.back() : 0) * below[i];
             below[i] = p[i];
             p[i] = above;
             norm += spectrum.weight[i] * above * above;
@@ -212,18 +219,18 @@ std::vector<double> WavelengthRule::polynomials(double wavelength) const {
 }
 
 std::vector<double> WavelengthRule::moments(const Spectrum &spectrum) const {
+    std::vector<double> x, p(spectrum.size(), 1), below(spectrum.size(), 0);
+    for (const double wavelength : spectrum.wavelength)
+        x.push_back(scaled(wavelength));
     std::vector<double> moments(size());
-    for (size_t i = 0; i < spectrum.size(); ++i) {
-        const std::vector<double> p = polynomials(spectrum.wavelength[i]);
-        for (size_t j = 0; j < size(); ++j)
-            moments[j] += spectrum.weight[i] * p[j];
-    }
+    for (size_t j = 0; j < size(); ++j)
+        for (size_t i = 0; i < x.size(); ++i) {
+            moments[j] += spectrum.weight[i] * p[i];
+            const double above =
+                ((x[i] - alpha_[j]) * p[i] - (j > 0 ? beta_[j - 1] : 0) * below[i]) / beta_[j];
+            below[i] = std::exchange(p[i], above);
+        }
     return moments;
-}
-
-double WavelengthRule::high_moment(const Spectrum &spectrum) const {
-    const std::vector<double> moment = moments(spectrum);
-    return std::max(std::abs(moment[size() - 1]), std::abs(moment[size() - 2]));
 }
 
 std::vector<double> WavelengthRule::weights(const Spectrum &spectrum) const {
@@ -239,7 +246,7 @@ std::vector<double> WavelengthRule::weights(const Spectrum &spectrum) const {
     std::vector<double> weights(size());
     for (size_t k = 0; k < size(); ++k)
         for (size_t j = 0; j < size(); ++j)
-            weights[k] += component(j, k) * moment[j];
+            weights[k] += gauss_[k] * polynomial_[k][j] * moment[j];
     return weights;
 }
 

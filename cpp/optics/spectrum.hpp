@@ -57,22 +57,11 @@ class WavelengthRule {
     size_t size() const { return wavelength_.size(); }
     const std::vector<double> &wavelengths() const { return wavelength_; } // m
 
-    bool exact() const { return exact_; }       // the rule is the spectrum itself
-    double half_range() const { return half_; } // of 1 / wavelength
-
-    // Of its own spectrum; not for exact rules.
-    const std::vector<double> &own_weights() const { return gauss_; }
+    bool exact() const { return exact_; } // the rule is the spectrum itself
 
     // The same nodes for another spectrum, whose points are among those of the rule's own: exact
     // for polynomials of degree below n, and to 2n for the rule's own.
     std::vector<double> weights(const Spectrum &spectrum) const;
-
-    // A function's component along the orthonormal polynomial of a degree below n is the sum of
-    // component(degree, k) f(wavelength k). Not for exact rules.
-    double component(size_t degree, size_t k) const { return gauss_[k] * polynomial_[k][degree]; }
-
-    // The larger of a spectrum's moments by the last two of those polynomials.
-    double high_moment(const Spectrum &spectrum) const;
 
   private:
     std::vector<double> moments(const Spectrum &spectrum) const;

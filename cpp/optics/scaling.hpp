@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Images of all wavelengths of a band from those of a few. At a place that is counted in
+// wavelengths, theta / lambda, the amplitude depends on the wavelength by the wavefront's waves
+// alone; and so does the intensity, by the differences of any two points of the pupil: smoothly, as
+// a polynomial in 1 / lambda tells that goes through a few wavelengths. Each image then gets its
+// size by band-limited interpolation, about the axis.
+#pragma once
+
+#include "error/progress.hpp"
+#include "image/view.hpp"
+#include "optics/aperture.hpp"
+#include "optics/image_maker.hpp"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace wfpsf {
+
+// Colours of one spectrum, or more of the same wavelengths.
+class Scaling {
+  public:
+    // To images on the maker's grid of wavelengths between the two, to `eps` of the unaberrated
+    // peak.
+    Scaling(const ImageMaker &maker, double blue, double red, double eps);
+
+    // What images are needed of, and the grid that each is made on.
+    const std::vector<double> &wavelengths() const { return wavelengths_; }
+    FocalGrid grid(double wavelength) const { return {from_, to_.step * (wavelength / blue_)}; }
+
+    // The parts that these images have in one of another wavelength.
+    std::vector<double> shares(double wavelength) const;
+
+    // What an image lacks in units of the unaberrated peak, if those that it is made of lack
+    // nothing.
+    double error() const { return error_; }
+
+    // For each row of weights: the sum over k of weights[k] times the image of colours[k].
+    std::vector<Plane<double>> sums(std::span<const Plane<double>> images,
+                                    std::span<const double> colours,
+                                    std::span<const std::vector<double>> weights,
+                                    const Progress &progress = {}) const;
+
+  private:
+    double blue_;
+    FocalGrid to_;
+    int64_t from_; // samples of the given images along an axis
+    std::vector<double> wavelengths_;
+    std::optional<AveragedSamples> samples_; // unless there is one wavelength alone
+    double error_ = 0;
+};
+
+} // namespace wfpsf
