@@ -110,6 +110,9 @@ double FarLight::brightest_beyond(double r) const {
         double sum = 0;
         for (const Spike &spike : spikes_.spikes)
             sum += spike.brightest_off(r, on.axes());
+        for (const Fringes &fringes : spikes_.fringes)
+            if (std::abs(fringes.axes().across(on.axes().nx, on.axes().ny)) < same_direction)
+                sum += fringes.brightest(r);
         most = std::max(most, sum);
     }
     return halo_.brightest(r) + most;

@@ -171,14 +171,13 @@ void Spike::add(const PixelRow &row, double floor) const {
 }
 
 double Spike::brightest_off(double r, const SpikeAxes &other) const {
-    constexpr double about = 0.25; // radians
     const double sine = std::abs(axes_.across(other.nx, other.ny));
     const double cosine = std::abs(axes_.along(other.nx, other.ny));
-    if (sine < about)
+    if (sine < same_direction)
         return brightest(r);
     // Its own tail, and the other spike's ends at either side of its line.
-    const double nearest = (sine - about / 2) * r;
-    return cosine < about ? 0 : 2 * scale_ * tail_ / std::pow(nearest * r * cosine, 2);
+    const double nearest = (sine - same_direction / 2) * r;
+    return cosine < same_direction ? 0 : 2 * scale_ * tail_ / std::pow(nearest * r * cosine, 2);
 }
 
 double Spike::half_width(double r, double floor) const {
@@ -200,7 +199,8 @@ struct FringeTable {
 WFPSF_VECTORISED void add_fringes(const FringeTable &fringes, double side, double x0, double y,
                                   size_t n, double *light) {
     const auto [nx, ny] = fringes.axes;
-    const double middle = static_cast<double>(fringes.columns / 2);
+    const int64_t half = fringes.columns / 2;
+    const auto middle = static_cast<double>(half);
     const double last = static_cast<double>(fringes.rows) - 2.001;
     const double last_column = static_cast<double>(fringes.columns) - 2.001;
     for (size_t i = 0; i < n; ++i) {
@@ -220,10 +220,17 @@ WFPSF_VECTORISED void add_fringes(const FringeTable &fringes, double side, doubl
 
 } // namespace
 
+double Fringes::brightest(double r) const {
+    const double row = (r - nearest_) * per_along_;
+    const auto last = static_cast<double>(rows_ - 1);
+    return most_[static_cast<size_t>(std::clamp(row, 0.0, last))] / (r * r);
+}
+
 void Fringes::add(const PixelRow &row, double floor) const {
     const auto &[nx, ny] = axes_;
-    const double reach = static_cast<double>(columns_ / 2 - 2) / per_across_;
-    const double farthest = std::sqrt(most_ / floor);
+    const int64_t half = columns_ / 2;
+    const double reach = static_cast<double>(half - 2) / per_across_;
+    const double farthest = std::sqrt(most_.front() / floor);
     std::vector<double> roots{-ny * row.y / nx}; // along = 0
     for (const double side : {-1.0, 1.0}) {
         roots.push_back((nx * row.y - side * reach) / ny);
@@ -262,19 +269,20 @@ WFPSF_VECTORISED void add_wave(Complex weight, double start, double turn, std::s
     }
 }
 
-// Complex samples of a function, and another that is added in a share.
+// Complex samples of a function.
 struct Waves {
     std::vector<double> re, im;
     explicit Waves(size_t n) : re(n), im(n) {}
 };
 
-// Along a line of points: steps of a position in a table, of a phase, of a factor.
+// Equal steps along a line of points: of a position in a table, or of a phase.
 struct Ramp {
     double start, step;
     double at(size_t j) const { return start + step * static_cast<double>(j); }
 };
 
-// A row of a group: what all its members make together, and each by itself.
+// What the members of a group make on a row of points: the sum of their amplitudes, and of the
+// light of each.
 struct Row {
     std::vector<double> re, im, each;
     explicit Row(size_t n) : re(n), im(n), each(n) {}
@@ -492,6 +500,8 @@ class SpikeTables {
                     out.rounded_[j] -= (1 - rounded(static_cast<double>(j) / per_unit)) / 2;
             }
         out.most_ = std::ranges::max(constant);
+        for (const double value : slope)
+            out.steepest_ = std::max(out.steepest_, std::abs(value));
         out.constant_ = std::move(constant);
         out.slope_ = std::move(slope);
         return out;
@@ -557,7 +567,7 @@ class SpikeTables {
         const auto across = static_cast<std::ptrdiff_t>(fringe_reach() / step);
         out.columns_ = 2 * across + 1;
         const std::vector<double> taps = filter(out.axes_, step);
-        out.most_ = 0;
+        out.most_.assign(static_cast<size_t>(out.rows_), 0.0);
         for (const int side : {0, 1}) {
             std::vector<double> &table = out.table_[static_cast<size_t>(side)];
             for (int64_t row = 0; row < out.rows_; ++row) {
@@ -568,11 +578,14 @@ class SpikeTables {
                 for (std::ptrdiff_t j = -across; j <= across; ++j)
                     values[static_cast<size_t>(j + across)] *=
                         within(static_cast<double>(j) * step / fringe_reach());
+                double &most = out.most_[static_cast<size_t>(row)];
                 for (const double value : values)
-                    out.most_ = std::max(out.most_, std::abs(value));
+                    most = std::max(most, std::abs(value));
                 table.insert(table.end(), values.begin(), values.end());
             }
         }
+        for (size_t row = out.most_.size() - 1; row-- > 0;)
+            out.most_[row] = std::max(out.most_[row], out.most_[row + 1]);
         return out;
     }
 

@@ -52,6 +52,9 @@ struct PixelRow {
     }
 };
 
+// Spikes that are so close in angle, radians, may lie on each other.
+inline constexpr double same_direction = 0.25;
+
 // The light of one edge by itself, within 45 degrees of the spike; what is left is no spike.
 class Spike {
   public:
@@ -63,7 +66,7 @@ class Spike {
     void add(const PixelRow &row, double floor) const;
 
     // The most at a distance of r.
-    double brightest(double r) const { return scale_ * most_ / (r * r); }
+    double brightest(double r) const { return scale_ * (most_ + steepest_ / r) / (r * r); }
     // The most at a distance of r and near another spike's line.
     double brightest_off(double r, const SpikeAxes &other) const;
     // How far from its line a spike's light is above the floor, at the distance r along it.
@@ -75,6 +78,7 @@ class Spike {
     double scale_ = 0;     // of the light
     double tail_ = 0;      // beyond the table: over the square of the distance across
     double most_ = 0;      // in the table
+    double steepest_ = 0;  // of what goes as the inverse of the distance
     double per_pixel_ = 0; // table entries
     double reach_ = 0;     // of the table, native pixels
     // By position across: what is the same at all distances along, and what goes as their inverse.
@@ -90,17 +94,20 @@ class Spike {
 class Fringes {
   public:
     void add(const PixelRow &row, double floor) const;
-    double brightest(double r) const { return most_ / (r * r); }
+    const SpikeAxes &axes() const { return axes_; }
+
+    // The most at a distance of r or more.
+    double brightest(double r) const;
 
   private:
     friend class SpikeTables;
     SpikeAxes axes_{};
-    double most_ = 0;
     double nearest_ = 0, per_along_ = 0, per_across_ = 0; // entries a native pixel
     int64_t rows_ = 0, columns_ = 0;
     // On either side of the star: light times the distance's square by distance along and position
     // across. The last row holds for all distances beyond.
     std::array<std::vector<double>, 2> table_;
+    std::vector<double> most_; // from each distance on
 };
 
 struct Spikes {
