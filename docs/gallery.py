@@ -139,8 +139,8 @@ def sensitivities():
             ra = (ra + 180) % 360 - 180
             colour = plt.cm.viridis(norm(value))
             axes.add_patch(Polygon(np.transpose([ra, dec]), fc=colour, ec="k", lw=0.5))
-            axes.text(ra.mean(), dec.mean(), format(value, digits), ha="center", va="center", fontsize=6.5,
-                      color="k" if norm(value) > 0.5 else "w")
+            axes.text(ra.mean(), dec.mean(), format(value, digits), ha="center", va="center",
+                      fontsize=6.5, color="k" if norm(value) > 0.5 else "w")
         axes.set(xlim=(0.44, -0.44), ylim=(-0.22, 0.33), aspect="equal", title=title,
                  xlabel="RA, degrees (east to the left)")
         figure.colorbar(plt.cm.ScalarMappable(norm, "viridis"), ax=axes, orientation="horizontal")

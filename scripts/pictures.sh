@@ -7,7 +7,8 @@ build=$(realpath "${1:-build/release}")
 cd "$(dirname "$0")/.."
 
 scripts/install_dependencies.sh --docs
-export WFPSF_LIBRARY=$build/capi/libwfpsf.so PYTHONPATH=$PWD/bindings/python PYTHONDONTWRITEBYTECODE=1
+export WFPSF_LIBRARY=$build/capi/libwfpsf.so PYTHONPATH=$PWD/bindings/python
+export PYTHONDONTWRITEBYTECODE=1
 mkdir -p docs/pictures
 for program in conventions gallery architecture; do
     /usr/bin/python3 docs/$program.py

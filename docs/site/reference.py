@@ -66,7 +66,8 @@ def rst(comment, more=()):
         if isinstance(part, list):
             least = min(len(line) - len(line.lstrip()) for line in part)
             language = "c" if any(line.endswith(";") for line in part) else "none"
-            lines += [f".. code-block:: {language}", "", *("   " + line[least:] for line in part), ""]
+            lines += [f".. code-block:: {language}", ""]
+            lines += [*("   " + line[least:] for line in part), ""]
         else:
             lines += [linked(re.sub(r"^@file \S+ ", "", part)), ""]
     for name, items in comment.sections.items():

@@ -40,8 +40,7 @@ def missing_names():
             if not re.search(rf"\b{name[:-2]}\(", known):
                 yield f"{page.name}: {name}: no such function"
         for name in set(re.findall(r"`WFPSF_(?!LIBRARY)([A-Z]\w+)`", text)):
-            suffix = re.sub(r"^(OPTION|ERROR|WARNING|PSF|KERNEL|MOMENTS|STUDY|OTF|VARYING_PSF)_", "",
-                            name)
+            suffix = re.sub(r"^(OPTION|PSF|KERNEL|MOMENTS|STUDY|OTF|VARYING_PSF)_", "", name)
             if not re.search(rf"\bWFPSF_{name}\b|\bX\(({name}|{suffix}),", known):
                 yield f"{page.name}: WFPSF_{name}: no such constant"
 
