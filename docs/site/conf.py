@@ -30,6 +30,7 @@ html_title = f"wfpsf {release}"
 html_static_path = [str(HERE / "static")]
 html_css_files = ["wfpsf.css"]
 html_show_sphinx = False
+html_show_copyright = False
 html_copy_source = False
 pygments_style = "friendly"
 highlight_language = "c"
