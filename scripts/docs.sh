@@ -13,7 +13,7 @@ mkdir -p "$out/tree/docs"
 # The pages as they stand, beside pages made from the headers and the examples that they show.
 cp -r docs/. "$out/tree/docs"
 ln -s "$PWD/examples" "$out/tree/examples"
-docs/site/reference.py "$out"
+/usr/bin/python3 docs/site/reference.py "$out"
 
 {
     cat docs/site/Doxyfile

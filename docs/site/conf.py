@@ -24,6 +24,7 @@ breathe_show_include = False
 nitpicky = True
 nitpick_ignore = [("c:identifier", name)
                   for name in ("int32_t", "int64_t", "size_t")]
+nitpick_ignore_regex = [("py:class", r"(?!wfpsf\.).*")]  # words such as "array" in docstrings
 
 html_theme = "furo"
 html_title = f"wfpsf {release}"

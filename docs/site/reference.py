@@ -10,6 +10,7 @@ import sys
 from pathlib import Path
 
 import headers
+import python_reference
 
 CONSTANTS = {}
 OPTIONS = {}
@@ -159,8 +160,8 @@ def rewritten(name, text, callers):
 def pages(folder, callers):
     names = [name for name in headers.HEADERS]
     index = ["# The C interface", "",
-             "One page for each header, made from its comments. Fortran, Julia and Python have the",
-             "same nouns: their reference is their sources, and `help()`.", "",
+             "One page for each header, made from its comments. Fortran and Julia have the same",
+             "nouns and verbs: `bindings/fortran/src/wfpsf.f90`, and Julia's `?name`.", "",
              "```{toctree}", ":maxdepth: 1", "", *(name.removesuffix(".h") for name in names),
              "examples", "```", ""]
     (folder / "index.md").write_text("\n".join(index))
@@ -170,6 +171,7 @@ def pages(folder, callers):
         (folder / f"{stem}.rst").write_text(
             f"{title}\n{'=' * len(title)}\n\n.. doxygenfile:: {name}\n"
             "   :sections: briefdescription detaileddescription define enum typedef func\n")
+    (folder / "python.rst").write_text("\n".join(python_reference.page()) + "\n")
     lines = ["# Where each function is used", "",
              "Examples and tests that call it, the shortest way to see it at work. Found in the",
              "sources as this page was made.", "", "| Function | Used in |", "|---|---|"]
