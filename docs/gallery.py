@@ -101,7 +101,9 @@ def contours():
             for band, axes in zip(shown, row):
                 values = table[band][order].reshape(len(y), len(x))
                 levels = np.linspace(values.min(), values.max(), 9)[1:-1]
-                lines = axes.contour(x, y, values, levels, cmap="viridis")
+                # The palest colours would not be read on white.
+                lines = axes.contour(x, y, values, levels, cmap="viridis",
+                                     vmax=levels[-1] + 0.4 * np.ptp(levels))
                 axes.clabel(lines, fontsize=7, fmt="%.2g")
                 axes.set(title=f"{FIGURES[name]}, {band}", xlabel=LABELS[x_name],
                          ylabel=LABELS[y_name] if band == shown[0] else None)
