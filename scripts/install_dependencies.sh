@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs the Debian packages that building and testing need; nothing if all are there.
-# With --lint, also what the lint step needs.
+# With --lint, also what the lint step needs; with --docs, what the documentation and its pictures
+# need.
 set -euo pipefail
 
 packages=(
@@ -11,8 +12,14 @@ packages=(
 )
 case "${1:-}" in
     --lint) packages+=(clang-format clang-tidy abigail-tools lintian) ;;
+    --docs)
+        packages=(
+            doxygen graphviz python3 python3-numpy python3-matplotlib
+            python3-sphinx python3-breathe python3-myst-parser furo
+        )
+        ;;
     "") ;;
-    *) printf 'usage: %s [--lint]\n' "$0" >&2; exit 2 ;;
+    *) printf 'usage: %s [--lint | --docs]\n' "$0" >&2; exit 2 ;;
 esac
 
 missing=()

@@ -47,7 +47,8 @@ int64_t IpcStar::sufficient_side(double bandwidth) {
 IpcStar::IpcStar(const Psf &psf, int64_t oversampling, int64_t native_side)
     : IpcStar(
           [&] {
-              Plane<double> image(native_side * oversampling, native_side * oversampling);
+              auto image =
+                  Plane<double>::unset(native_side * oversampling, native_side * oversampling);
               const double middle = static_cast<double>(image.nx() - 1) / 2;
               psf.draw({middle, middle, 1}, oversampling, image.view());
               return image;
@@ -57,7 +58,7 @@ IpcStar::IpcStar(const Psf &psf, int64_t oversampling, int64_t native_side)
 IpcStar::IpcStar(Plane<double> image, int64_t oversampling)
     : oversampling_(oversampling), image_(std::move(image)) {
     for (size_t p = 0; p < ipc_parameters; ++p) {
-        changes_[p] = Plane<double>(side(), side());
+        changes_[p] = Plane<double>::unset(side(), side());
         convolve(View<const double>{tap_slopes[p].data(), 3, 3, 1, 3}, std::as_const(image_).view(),
                  {.tap_step = oversampling}, changes_[p].view());
     }
@@ -89,10 +90,14 @@ std::vector<StarChange> zernike_changes(const Psf &psf, const IpcStar &star, dou
 
 Plane<double> IpcStar::image(const Ipc &ipc) const {
     auto sum = Plane<double>::unset(side(), side());
-    for (int64_t y = 0; y < side(); ++y)
+    for (int64_t y = 0; y < side(); ++y) {
+        const double *bare = image_.view().row(y);
+        const double *by[] = {change(0).row(y), change(1).row(y), change(2).row(y)};
+        double *row = sum.view().row(y);
         for (int64_t x = 0; x < side(); ++x)
-            sum(x, y) = image_(x, y) + ipc.alpha * changes_[0](x, y) +
-                        ipc.alpha_prime * changes_[1](x, y) + ipc.alpha_plus * changes_[2](x, y);
+            row[x] = bare[x] + ipc.alpha * by[0][x] + ipc.alpha_prime * by[1][x] +
+                     ipc.alpha_plus * by[2][x];
+    }
     return sum;
 }
 

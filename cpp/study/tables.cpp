@@ -189,8 +189,12 @@ StudyTable convergence_table(const StudySource &source, const Stars &stars) {
         if (s.struts != source.struts || !is_shown(source.instrument, s.band))
             continue;
         const auto truth = measured(s, 2 * s.star.oversampling());
+        // From the largest images down, which keep their memory.
+        std::array<std::array<double, numbers>, most> by_oversampling;
+        for (int64_t oversampling = most; oversampling > 0; --oversampling)
+            by_oversampling[static_cast<size_t>(oversampling - 1)] = measured(s, oversampling);
         for (int64_t oversampling = 1; oversampling <= most; ++oversampling) {
-            const auto own = measured(s, oversampling);
+            const auto &own = by_oversampling[static_cast<size_t>(oversampling - 1)];
             std::vector<StudyCell> row{s.band.name, static_cast<double>(oversampling)};
             row.emplace_back(std::abs(own[0] / truth[0] - 1));
             for (size_t i = 1; i < numbers; ++i)

@@ -5,4 +5,4 @@ include(${CMAKE_CURRENT_LIST_DIR}/consume.cmake)
 file(REMOVE_RECURSE ${WORK})
 run(${CPACK} --config ${BUILD}/CPackSourceConfig.cmake -B ${WORK})
 consume_by_cmake(${WORK}/consumer -DTARBALL=${WORK}/wfpsf-${VERSION}.tar.gz
-  -DCMAKE_BUILD_TYPE=Debug)
+  -DCMAKE_BUILD_TYPE=Debug -DCMAKE_C_FLAGS_DEBUG=-O0 -DCMAKE_CXX_FLAGS_DEBUG=-O0)

@@ -84,7 +84,7 @@ WFPSF_EXPORT void wfpsf_chain_destroy(wfpsf_chain *chain);
  *
  * Given:    step        WFPSF_STEP_* that takes numbers alone
  *           count       of parameters
- *           parameters  finite; may be NULL if count is 0
+ *           parameters  in the units that WFPSF_STEP_* states, finite; may be NULL if count is 0
  * Status:   ERROR_NULL, ERROR_ARGUMENT, ERROR_SIZE, ERROR_RANGE, ERROR_NOT_FINITE,
  *           ERROR_ALREADY_APPLIED (the chain has that effect already: all but clipping, rounding,
  *           saturation and masks come once); the chain is then unchanged
@@ -129,7 +129,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_chain_add_map(wfpsf_chain *chain, int32_t step, 
  *
  * Given:    index       from 0
  *           capacity    numbers that parameters has room for, >= 0
- * Returned: parameters  the first min(capacity, count) of them
+ * Returned: parameters  the first min(capacity, count) of them, as for wfpsf_chain_add()
  *           count       how many there are; may be NULL
  *           step        WFPSF_STEP_*; 0 past the last step
  * Status:   ERROR_NULL, ERROR_RANGE (index < 0), ERROR_SIZE
@@ -170,7 +170,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_chain_apply(const wfpsf_chain *chain, wfpsf_imag
  * kernel's autocorrelation.
  *
  * Given:    image
- *           rms      of the white noise, >= 0
+ *           rms      of the white noise, in the unit of the pixels, >= 0
  *           kernel   NULL: white noise
  *           options  SEED, STREAM, ORIGIN_X, ORIGIN_Y, THREADS
  * Returned: image    its record is unchanged

@@ -88,15 +88,19 @@ WFPSF_EXPORT void wfpsf_image_destroy(wfpsf_image *image);
 /**
  * Type and size of an image. Any output may be NULL.
  *
+ * Returned: pixel_type  WFPSF_FLOAT32 or WFPSF_FLOAT64
+ *           nx, ny      pixels of the image, samples if it is oversampled
  * Status:   ERROR_NULL
  */
 WFPSF_EXPORT wfpsf_status wfpsf_image_shape(const wfpsf_image *image, int32_t *pixel_type,
                                             int64_t *nx, int64_t *ny);
 
 /**
- * The record of an image: samples per native pixel, scale of a native pixel in arcsec (0: not
- * stated), effects applied (sum of WFPSF_EFFECT_*). Any output may be NULL.
+ * The record of an image. Any output may be NULL.
  *
+ * Returned: oversampling        samples per native pixel along each axis
+ *           pixel_scale_arcsec  of a native pixel; 0: not stated
+ *           applied             sum of WFPSF_EFFECT_*
  * Status:   ERROR_NULL
  */
 WFPSF_EXPORT wfpsf_status wfpsf_image_record(const wfpsf_image *image, int64_t *oversampling,

@@ -132,7 +132,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_ipc_kernel_create_autocorrelation(const wfpsf_ip
  * Standard deviations of the taps measured for WFC3/IR (paper, Eq. 11), divided as the kernel is.
  *
  * Given:    capacity    numbers that deviations has room for, >= 9
- * Returned: deviations  of the taps of wfpsf_ipc_kernel_create_wfc3(), in their order
+ * Returned: deviations  of the taps of wfpsf_ipc_kernel_create_wfc3(), in their order, shares too
  * Status:   ERROR_NULL, ERROR_SIZE
  */
 WFPSF_EXPORT wfpsf_status wfpsf_ipc_wfc3_deviations(int64_t capacity, double *deviations);
@@ -145,7 +145,7 @@ WFPSF_EXPORT void wfpsf_ipc_kernel_destroy(wfpsf_ipc_kernel *kernel);
  *
  * Given:    capacity  numbers that taps has room for; 0 to ask for the size alone
  * Returned: nx, ny    may be NULL
- *           taps      nx * ny numbers, x fastest; untouched if capacity is 0
+ *           taps      nx * ny shares of a charge, x fastest; untouched if capacity is 0
  * Status:   ERROR_NULL, ERROR_SIZE (capacity neither 0 nor at least nx * ny)
  */
 WFPSF_EXPORT wfpsf_status wfpsf_ipc_kernel_taps(const wfpsf_ipc_kernel *kernel, int64_t capacity,
@@ -183,7 +183,7 @@ enum { WFPSF_KERNEL_PROPERTY_LIST(WFPSF_KERNEL_PROPERTY_ENUM) };
  * A property of a kernel.
  *
  * Given:    key    WFPSF_KERNEL_*
- * Returned: value
+ * Returned: value  in the unit that the list states
  * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME
  */
 WFPSF_EXPORT wfpsf_status wfpsf_ipc_kernel_get(const wfpsf_ipc_kernel *kernel, int32_t key,
@@ -193,7 +193,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_ipc_kernel_get(const wfpsf_ipc_kernel *kernel, i
  * The transform K^(f) = sum over d of K(d) exp(-2 pi i f . d).
  *
  * Given:    frequency_x, frequency_y  finite, cycles per pixel
- * Returned: real_part, imaginary_part
+ * Returned: real_part, imaginary_part  dimensionless; 1 and 0 at frequency 0
  * Status:   ERROR_NULL, ERROR_NOT_FINITE
  */
 WFPSF_EXPORT wfpsf_status wfpsf_ipc_kernel_transform(const wfpsf_ipc_kernel *kernel,
@@ -232,7 +232,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_ipc_apply(const wfpsf_ipc_kernel *kernel, const 
  *
  * Given:    options   IPC_FORM
  *           capacity  numbers that response has room for, >= nx * ny of the kernel
- * Returned: response  the signal dx right of the charge and dy above it stands at
+ * Returned: response  shares of the charge: the signal dx right of it and dy above it stands at
  *                     [(dy + ny/2) * nx + dx + nx/2]
  * Status:   ERROR_NULL, ERROR_SIZE
  */

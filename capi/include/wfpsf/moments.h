@@ -96,7 +96,8 @@ WFPSF_EXPORT wfpsf_status wfpsf_moments_measure_masked(const wfpsf_image *image,
  * centroid the weighted mean, and M the weighted second moment about the weight's centre, without a
  * factor 2.
  *
- * Given:    x, y           centre of the weight
+ * Given:    image          any size and strides
+ *           x, y           centre of the weight
  *           Mxx, Mxy, Myy  its matrix, pixels^2, positive definite
  * Returned: out            the result; NULL on failure
  * Status:   ERROR_NULL, ERROR_NOT_FINITE, ERROR_RANGE, ERROR_MOMENTS_NO_PIXELS,
@@ -109,7 +110,8 @@ WFPSF_EXPORT wfpsf_status wfpsf_moments_measure_weighted(const wfpsf_image *imag
 /**
  * Sums of I w dx^j dy^k up to the fourth order, dx and dy from (x, y); w = 1 without a weight.
  *
- * Given:    x, y    the point
+ * Given:    image   any size and strides
+ *           x, y    the point
  *           weight  Mxx, Mxy, Myy of a Gaussian weight about it; NULL: no weight
  *           count   how many are wanted, 0..15: 6 make the second order, 15 the fourth
  * Returned: sums    (j, k) = (0,0), (1,0), (0,1), (2,0), (1,1), (0,2), (3,0), ..., (0,4)
@@ -139,6 +141,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_moments_status(const wfpsf_moments *moments);
  * One number of a result.
  *
  * Given:    key    WFPSF_MOMENTS_*
+ * Returned: value  lengths in pixels of the image; NaN if it does not apply
  * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME
  */
 WFPSF_EXPORT wfpsf_status wfpsf_moments_get(const wfpsf_moments *moments, int32_t key,
@@ -157,6 +160,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_moments_get(const wfpsf_moments *moments, int32_
  * M. Noise must be normal for order 2.
  *
  * Given:    key_a, key_b  CENTROID_X to FLUX, or BACKGROUND; the same key twice for a variance
+ * Returned: value         in the product of their units
  * Status:   ERROR_NULL; ERROR_UNKNOWN_NAME; ERROR_ARGUMENT: the result has no covariance, because
  *           no variance was given or there is no solution
  */

@@ -209,7 +209,8 @@ WFPSF_EXPORT wfpsf_status wfpsf_observation_fits_header(const wfpsf_observation 
 /**
  * The Julian date of a UTC date and time, good to 4e-5 s.
  *
- * Given:    year ... second  Gregorian, in the years 1900 to 2100
+ * Given:    year, month, day, hour, minute, second  Gregorian, in the years 1900 to 2100
+ * Returned: julian_date                             days, UTC
  * Status:   ERROR_NULL, ERROR_RANGE (there is no such date)
  */
 WFPSF_EXPORT wfpsf_status wfpsf_julian_date(int32_t year, int32_t month, int32_t day, int32_t hour,

@@ -145,8 +145,10 @@ WFPSF_EXPORT wfpsf_status wfpsf_options_set_integer(wfpsf_options *options, int3
                                                     int64_t value);
 
 /**
- * Reads one option, whatever its kind, as a double; NaN if it is left to the library.
+ * Reads one option, whatever its kind, as a double.
  *
+ * Given:    key     WFPSF_OPTION_*
+ * Returned: value   in the option's own unit; NaN if it is left to the library
  * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME
  */
 WFPSF_EXPORT wfpsf_status wfpsf_options_get(const wfpsf_options *options, int32_t key,
@@ -155,6 +157,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_options_get(const wfpsf_options *options, int32_
 /**
  * Gives one option its default again.
  *
+ * Given:    key     WFPSF_OPTION_*
  * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME
  */
 WFPSF_EXPORT wfpsf_status wfpsf_options_reset(wfpsf_options *options, int32_t key);
@@ -190,9 +193,14 @@ WFPSF_EXPORT wfpsf_status wfpsf_options_set_progress(wfpsf_options *options,
                                                      wfpsf_progress progress, void *user);
 
 /**
- * What is known of an option: its name, kind, default (NaN: chosen by the library) and bounds.
- * Any output may be NULL. Thread-safe.
+ * What is known of an option. Thread-safe.
  *
+ * Given:    key                WFPSF_OPTION_*
+ * Returned: name, text         static strings: such as "EPS", and what it is, with its unit
+ *           kind               WFPSF_OPTION_REAL or WFPSF_OPTION_INTEGER
+ *           standard           the default; NaN: chosen by the library
+ *           smallest, largest  the bounds, both allowed
+ *           Any output may be NULL.
  * Status:   ERROR_UNKNOWN_NAME
  */
 WFPSF_EXPORT wfpsf_status wfpsf_option_describe(int32_t key, const char **name, const char **text,

@@ -80,7 +80,7 @@ WFPSF_EXPORT void wfpsf_otf_destroy(wfpsf_otf *otf);
  * Given:    response  WFPSF_RESPONSE_*
  *           count     of frequencies, >= 0
  *           kx, ky    cycles per arcsec, count finite numbers each
- * Returned: re, im    count numbers each
+ * Returned: re, im    count numbers each, dimensionless
  * Status:   ERROR_NULL, ERROR_ARGUMENT, ERROR_SIZE, ERROR_NOT_FINITE; nothing is then written
  */
 WFPSF_EXPORT wfpsf_status wfpsf_otf_values(const wfpsf_otf *otf, int32_t response, int64_t count,
@@ -108,6 +108,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_otf_grid(const wfpsf_otf *otf, int32_t response,
  * One property of an OTF.
  *
  * Given:    key    WFPSF_OTF_*
+ * Returned: value  in the unit that the list states
  * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME
  */
 WFPSF_EXPORT wfpsf_status wfpsf_otf_get(const wfpsf_otf *otf, int32_t key, double *value);

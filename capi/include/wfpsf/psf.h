@@ -206,7 +206,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_psf_draw_memory(const wfpsf_psf *psf, double x, 
  * afterwards it states both.
  *
  * Given:    count       of stars, >= 0
- *           x, y, flux  count numbers each, all finite
+ *           x, y, flux  count numbers each, all finite; pixels of the image, and any unit of light
  *           options     THREADS, which changes the time and no bit of the result; FORCE
  * Returned: image       pixels and record; untouched on failure, unless memory runs out on the way
  * Status:   ERROR_NULL, ERROR_SIZE, ERROR_NOT_FINITE, ERROR_ALREADY_APPLIED, ERROR_ARGUMENT
@@ -249,6 +249,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_psf_convolve(const wfpsf_psf *psf, const wfpsf_i
  * One property of a PSF.
  *
  * Given:    key    WFPSF_PSF_*
+ * Returned: value  in the unit that the list states
  * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME
  */
 WFPSF_EXPORT wfpsf_status wfpsf_psf_get(const wfpsf_psf *psf, int32_t key, double *value);

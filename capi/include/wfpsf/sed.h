@@ -44,7 +44,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_sed_create_table(int32_t unit, int64_t count,
  * ENERGY, 0; flat in f_nu, an AB source: ENERGY, -2.
  *
  * Given:    unit      WFPSF_SED_*
- *           exponent  -100..100
+ *           exponent  dimensionless, -100..100
  * Returned: out       the handle; NULL on failure
  * Status:   ERROR_NULL, ERROR_ARGUMENT, ERROR_RANGE, ERROR_NO_MEMORY
  */
@@ -64,7 +64,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_sed_create_black_body(double temperature_k, wfps
  * Another SED at a redshift: its wavelengths 1 + z times as long.
  *
  * Given:    sed       may be freed afterwards
- *           redshift  above -1, up to 1000
+ *           redshift  dimensionless, above -1, up to 1000
  * Returned: out       the handle; NULL on failure
  * Status:   ERROR_NULL, ERROR_RANGE, ERROR_NO_MEMORY
  */
@@ -80,7 +80,7 @@ WFPSF_EXPORT void wfpsf_sed_destroy(wfpsf_sed *sed);
  *
  * Given:    count          of wavelengths, >= 0
  *           wavelength_nm  finite, > 0
- * Returned: photons        count numbers
+ * Returned: photons        count numbers, in a unit that does not matter
  * Status:   ERROR_NULL, ERROR_SIZE, ERROR_RANGE, ERROR_NOT_FINITE
  */
 WFPSF_EXPORT wfpsf_status wfpsf_sed_photon_density(const wfpsf_sed *sed, int64_t count,

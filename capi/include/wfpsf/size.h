@@ -59,8 +59,9 @@ WFPSF_EXPORT wfpsf_status wfpsf_size_ee_radius(const wfpsf_image *image, double 
 /**
  * Full width at half maximum from pixels sorted by distance, as GalSim's calculateFWHM.
  *
- * Given:    x, y  centre
- * Returned: fwhm
+ * Given:    image  of any size and strides
+ *           x, y   centre
+ * Returned: fwhm   pixels
  * Status:   ERROR_NULL, ERROR_NOT_FINITE, ERROR_MOMENTS_FLUX, ERROR_SIZE_NOT_REACHED
  */
 WFPSF_EXPORT wfpsf_status wfpsf_size_fwhm(const wfpsf_image *image, double x, double y,
@@ -106,7 +107,8 @@ WFPSF_EXPORT wfpsf_status wfpsf_size_profile(const wfpsf_image *image, double x,
  * Full width at half maximum of that profile: twice the smallest radius at which it falls to half
  * of its value at the centre.
  *
- * Given:    x, y     centre, meant to be the peak
+ * Given:    image    of any size and strides
+ *           x, y     centre, meant to be the peak
  *           options  SIZE_BANDWIDTH, SIZE_EPS
  * Returned: fwhm
  *           error    estimate of its error; may be NULL

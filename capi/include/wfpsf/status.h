@@ -20,6 +20,7 @@
 extern "C" {
 #endif
 
+/** What became of a call: 0, negative or positive, as said above. */
 typedef int32_t wfpsf_status;
 
 /** X(NAME, value, text): the one list that the enum, the texts and every binding are made from. */

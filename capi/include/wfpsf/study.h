@@ -93,16 +93,22 @@ WFPSF_EXPORT const char *wfpsf_study_column(const wfpsf_study *study, int32_t ta
 /**
  * One number.
  *
- * Given:    row, column  from 0
- * Returned: value        NaN where nothing is known, or where words stand
+ * Given:    table        WFPSF_STUDY_*
+ *           row, column  from 0
+ * Returned: value        in the unit that the row, the column or the table's text states; NaN where
+ *                        nothing is known, or where words stand
  * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME, ERROR_RANGE
  */
 WFPSF_EXPORT wfpsf_status wfpsf_study_value(const wfpsf_study *study, int32_t table, int64_t row,
                                             int64_t column, double *value);
 
 /**
- * The words in a place, such as a band's name; a string that lives as long as the study, NULL where
- * a number stands and where there is no such place.
+ * The words in a place, such as a band's name.
+ *
+ * Given:    table        WFPSF_STUDY_*
+ *           row, column  from 0
+ * Returned: a string that lives as long as the study; NULL where a number stands and where there is
+ *           no such place
  */
 WFPSF_EXPORT const char *wfpsf_study_text(const wfpsf_study *study, int32_t table, int64_t row,
                                           int64_t column);

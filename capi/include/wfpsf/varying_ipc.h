@@ -88,7 +88,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_varying_ipc_kernel(const wfpsf_varying_ipc *vary
 /**
  * The least stability margin, min |K^|, of any pixel's kernel, and the first pixel that has it.
  *
- * Returned: margin  0 if a transform has a zero
+ * Returned: margin  dimensionless; 0 if a transform has a zero
  *           x, y    may be NULL
  * Status:   ERROR_NULL
  */

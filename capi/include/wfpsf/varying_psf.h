@@ -95,6 +95,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_varying_psf_add_stars(const wfpsf_varying_psf *v
  * One property of a varying PSF.
  *
  * Given:    key    WFPSF_VARYING_PSF_*
+ * Returned: value  in the unit that the list states
  * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME
  */
 WFPSF_EXPORT wfpsf_status wfpsf_varying_psf_get(const wfpsf_varying_psf *varying, int32_t key,
