@@ -27,7 +27,7 @@ FarSource far_source(const Optics &optics, const Light &light, const PsfSettings
              nearest_pixel);
     const WavelengthRule rule(spectrum, colours);
     return {optics, settings,
-            rule.exact() ? spectrum : Spectrum{rule.wavelengths(), rule.own_weights()},
+            rule.exact() ? spectrum : Spectrum{rule.wavelengths(), rule.weights(spectrum)},
             nearest_pixel};
 }
 
