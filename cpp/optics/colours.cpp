@@ -42,9 +42,9 @@ void add(std::span<const double> wavelength, std::span<const double> weight, con
 // the axis mixes all paths up to the longest there.
 double error_of(const WavelengthRule &rule, const std::vector<double> &weights, const Paths &paths,
                 const Brightness &brightness, Fringes of_spectrum) {
-    std::vector<double> less;
-    for (const double weight : weights)
-        less.push_back(-weight);
+    std::vector<double> less = weights;
+    for (double &weight : less)
+        weight = -weight;
     add(rule.wavelengths(), less, paths, of_spectrum);
     double missed = 0, most = 0;
     for (size_t i = 1; i < paths.count; ++i) {

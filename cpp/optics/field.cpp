@@ -221,8 +221,8 @@ std::vector<Field> make_fields(const Optics &optics, std::span<const Light> ligh
         const Profile profile(images.intensity, optics.aperture->area());
         const auto [rule, weights, missed] = choose_wavelengths(
             spectra, maker.longest_path(),
-            [&](double path) {
-                return profile.in_any_colour(maker.distance(path), bluest / reddest);
+            [&, range = bluest / reddest](double path) {
+                return profile.in_any_colour(maker.distance(path), range);
             },
             shares.of_rule * tolerance);
         std::vector<Field> fields = fields_of(maker, scaling, images, rule.wavelengths(), weights,
