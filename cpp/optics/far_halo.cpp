@@ -16,16 +16,6 @@ using Complex = std::complex<double>;
 constexpr double pi = std::numbers::pi;
 constexpr double smooth_kink = 0.01; // radians
 
-// C(x) + i S(x), good to 2e-3 (Abramowitz & Stegun 7.3.32 and 7.3.33).
-Complex fresnel(double x) {
-    const double a = std::abs(x);
-    const double f = (1 + 0.926 * a) / (2 + a * (1.792 + a * 3.104));
-    const double g = 1 / (2 + a * (4.142 + a * (3.492 + a * 6.670)));
-    const double s = std::sin(pi / 2 * a * a), c = std::cos(pi / 2 * a * a);
-    const Complex value(0.5 + f * s - g * c, 0.5 - f * c - g * s);
-    return x < 0 ? -value : value;
-}
-
 // Angles about a circle: 0..4 along a square that stands on its corner, quick to find.
 double diamond(double x, double y) {
     const double p = y / (std::abs(x) + std::abs(y));

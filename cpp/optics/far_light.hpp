@@ -49,7 +49,7 @@ class FarLight {
 
     // Estimate of the rms error of single pixels as a share of their light, on the brightest spike
     // and between the spikes: fringes with light from distant parts of the pupil, of which the sum
-    // keeps none. Fitted to the worst of what was measured at r = 64..512 on Roman's pupil and
+    // keeps none. Fitted to the worst of what was measured at r = 64..256 on Roman's pupil and
     // WFIRST's; Roman's spikes are 2 to 4 times better.
     struct Error {
         double spikes, halo;

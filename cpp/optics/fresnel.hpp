@@ -19,4 +19,12 @@ inline std::complex<double> fresnel_tail(double x) {
     return std::complex<double>(1, 1) * std::polar(1.0, -turn) - std::complex<double>(g, f);
 }
 
+// C(x) + i S(x), the integral from 0 to x.
+inline std::complex<double> fresnel(double x) {
+    const double a = std::abs(x);
+    const auto value = std::complex<double>(0.5, 0.5) -
+                       fresnel_tail(a) * std::polar(1.0, std::numbers::pi / 2 * a * a);
+    return x < 0 ? -value : value;
+}
+
 } // namespace wfpsf
