@@ -8,7 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
+#include <cstdio>
 #include <string>
 
 using namespace wfpsf;
@@ -146,7 +146,11 @@ wfpsf_status wfpsf_scene_create(const wfpsf_instrument *instrument,
         const Instrument &i = instrument->instrument;
         const Catalogue &sources = catalogue->catalogue;
         const auto [at, varies, region] = detector_optics(*instrument, band, sca, options);
-        SceneOptics optics{at, varies, region, make_settings(i, is_mirrored(i, options), options),
+        SceneOptics optics{at,
+                           varies,
+                           region,
+                           make_settings(i, is_mirrored(i, options), options),
+                           i.pixel_scale_arcsec(),
                            lights_of(sources, i.band(band))};
         double zero_flux = 1;
         if (sources.brightness() == Brightness::ab_magnitude)
@@ -156,11 +160,7 @@ wfpsf_status wfpsf_scene_create(const wfpsf_instrument *instrument,
         ScenePlan plan(optics, std::move(placed), sources.shapes(), budget_of(i, options),
                        {x0, y0, target.nx(), target.ny(), target.oversampling()});
         auto made = std::make_unique<wfpsf_scene>(
-            wfpsf_scene{std::move(optics),
-                        std::move(plan),
-                        {sources.shapes().begin(), sources.shapes().end()},
-                        sources.size(),
-                        i.pixel_scale_arcsec()});
+            wfpsf_scene{std::move(optics), std::move(plan), sources.size()});
         const ScenePlan &planned = made->plan;
         *out = made.release();
         return certify_scene(planned.error(), planned.budget().error());
@@ -257,5 +257,63 @@ wfpsf_status wfpsf_rendering_get(const wfpsf_rendering *rendering, int32_t key, 
         require_pointer(rendering, "rendering");
         require_pointer(value, "value");
         *value = property_of(rendering->report, key);
+    });
+}
+
+wfpsf_status wfpsf_scene_truth(const wfpsf_scene *scene, int64_t count, const int64_t *sources,
+                               const wfpsf_ipc_kernel *kernel, const wfpsf_options *options,
+                               double *values) {
+    return guarded([&] {
+        require_pointer(scene, "scene");
+        const std::span all = array_of(count, values, "count", "values");
+        const auto size = static_cast<int64_t>(scene->catalogue_size);
+        // Where each source of the catalogue stands in the plan.
+        std::vector<const PlacedSource *> placed(scene->catalogue_size);
+        for (const PlacedSource &source : scene->plan.sources())
+            placed[static_cast<size_t>(source.index)] = &source;
+        std::vector<PlacedSource> asked;
+        std::vector<int64_t> rows;
+        for (int64_t i = 0; i < count; ++i) {
+            const int64_t index = sources ? sources[i] : i;
+            if (index < 0 || index >= size)
+                fail(WFPSF_ERROR_RANGE, "sources[%lld] = %lld: must be 0..%lld",
+                     static_cast<long long>(i), static_cast<long long>(index),
+                     static_cast<long long>(size - 1));
+            if (placed[static_cast<size_t>(index)]) {
+                asked.push_back(*placed[static_cast<size_t>(index)]);
+                rows.push_back(i);
+            }
+        }
+        const std::vector<SourceTruth> truths =
+            truth_of(scene->optics, scene->plan, asked,
+                     {.eps = option(options, WFPSF_OPTION_EPS),
+                      .moments_tolerance = option(options, WFPSF_OPTION_MOMENTS_TOLERANCE),
+                      .kernel = kernel ? &kernel->kernel : nullptr,
+                      .threads = static_cast<int>(option(options, WFPSF_OPTION_THREADS))});
+        constexpr int64_t columns = WFPSF_TRUTH_COLUMNS;
+        for (int64_t i = 0; i < count; ++i) {
+            std::fill_n(values + i * columns, columns, NAN);
+            values[i * columns + WFPSF_TRUTH_GROUP] = -1;
+        }
+        for (size_t i = 0; i < rows.size(); ++i) {
+            double *const row = values + rows[i] * columns;
+            const PlacedSource &source = asked[i];
+            const SourceTruth &truth = truths[i];
+            row[WFPSF_TRUTH_GROUP] = static_cast<double>(scene->plan.group_index(source));
+            row[WFPSF_TRUTH_POSITION_X] = source.x;
+            row[WFPSF_TRUTH_POSITION_Y] = source.y;
+            row[WFPSF_TRUTH_FLUX] = source.flux;
+            row[WFPSF_TRUTH_FLUX_IN_STAMP] = truth.flux_in_stamp;
+            row[WFPSF_TRUTH_STATUS] = truth.status;
+            const auto put = [row](int64_t first, const TrueShape &shape) {
+                row[first] = shape.x;
+                row[first + 1] = shape.y;
+                row[first + 2] = shape.sigma;
+                row[first + 3] = shape.e1;
+                row[first + 4] = shape.e2;
+            };
+            put(WFPSF_TRUTH_CENTROID_X, truth.bare);
+            put(WFPSF_TRUTH_IPC_CENTROID_X, truth.with_ipc);
+        }
     });
 }

@@ -101,7 +101,7 @@ void Ways::of_own(const Take &take) const {
             if (radius > Way::largest_field)
                 time += cost::large_stamp(pixels(radius), radius, colour_.bandwidth);
             else
-                time += cost::stamp(width(radius), 0);
+                time += cost::stamp(width(radius), 1);
             with_and_without_far({Drawing::own, radius, eps, 0, 0}, count() * time,
                                  colour_.profile.peak() * eps + point_error(), take);
         }

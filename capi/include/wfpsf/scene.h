@@ -185,8 +185,8 @@ WFPSF_EXPORT wfpsf_status wfpsf_rendering_get(const wfpsf_rendering *rendering, 
 /** X(NAME, column, text): columns of the truth table. NaN where there is no answer. */
 #define WFPSF_TRUTH_LIST(X)                                                                        \
     X(GROUP, 0, "group of the source; -1: it has no place, and all else is NaN")                   \
-    X(X, 1, "position on the detector, pixels")                                                    \
-    X(Y, 2, "position on the detector, pixels")                                                    \
+    X(POSITION_X, 1, "position on the detector, pixels")                                                    \
+    X(POSITION_Y, 2, "position on the detector, pixels")                                                    \
     X(FLUX, 3, "e-, all of it")                                                                    \
     X(FLUX_IN_STAMP, 4, "e- that its stamp holds, if it lies within the image")                    \
     X(STATUS, 5, "status of the moments, wfpsf_status; of those after IPC if these are sound")     \
