@@ -19,7 +19,7 @@ ROOT = HERE.parent
 HEADERS = ROOT / "capi/include/wfpsf"
 ORDER = ("version.h.in", "status.h", "options.h", "image.h", "instrument.h", "design.h", "sed.h",
          "psf.h", "varying_psf.h", "otf.h", "ipc.h", "varying_ipc.h", "chain.h", "sky.h", "observation.h", "moments.h", "size.h",
-         "study.h", "catalogue.h", "scene.h")
+         "study.h", "catalogue.h", "scene.h", "exposure.h")
 WITHOUT_NAMES = {"export.h", "wfpsf.h"}
 WIDTH = 100
 CALLBACK = "callback"  # stands for every type of pointers to functions

@@ -15,6 +15,7 @@
 #include "optics/psf.hpp"
 #include "optics/varying_psf.hpp"
 #include "scene/catalogue.hpp"
+#include "scene/exposure.hpp"
 #include "scene/plan.hpp"
 #include "scene/render.hpp"
 #include "study/study.hpp"
@@ -107,6 +108,11 @@ struct wfpsf_scene {
 
 struct wfpsf_rendering {
     wfpsf::RenderReport report;
+};
+
+struct wfpsf_exposure {
+    wfpsf::Exposure exposure;
+    int sca_count;
 };
 
 struct wfpsf_study {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "funnel.hpp"
 #include "handles.hpp"
-#include "psf_parts.hpp"
 #include "scene/plan.hpp"
 #include "scene/render.hpp"
 #include "scene/truth.hpp"
+#include "scene_parts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,34 +14,6 @@
 using namespace wfpsf;
 
 namespace {
-
-double exposure_time(const Instrument &instrument, const wfpsf_options *options) {
-    const double given = option(options, WFPSF_OPTION_EXPOSURE_TIME);
-    return std::isnan(given) ? instrument.constant("exptime").value : given;
-}
-
-SceneBudget budget_of(const Instrument &instrument, const wfpsf_options *options) {
-    SceneBudget budget{.noise = option(options, WFPSF_OPTION_SCENE_NOISE),
-                       .variance = option(options, WFPSF_OPTION_SCENE_VARIANCE),
-                       .flux = option(options, WFPSF_OPTION_SCENE_FLUX)};
-    if (std::isnan(budget.variance)) {
-        const double read_noise = instrument.constant("read_noise").value;
-        budget.variance =
-            read_noise * read_noise +
-            instrument.constant("dark_current").value * exposure_time(instrument, options) +
-            option(options, WFPSF_OPTION_SCENE_BACKGROUND);
-    }
-    return budget;
-}
-
-std::vector<Light> lights_of(const Catalogue &catalogue, const Band &band) {
-    std::vector<Light> lights;
-    for (const SourceColour &colour : catalogue.colours())
-        lights.push_back(light_of(band, colour.wavelength_nm, colour.sed ? &*colour.sed : nullptr));
-    if (lights.empty())
-        lights.push_back(one_colour_in(band, 0));
-    return lights;
-}
 
 double property_of(const ScenePlan &plan, int32_t key) {
     switch (key) {
@@ -138,23 +110,14 @@ wfpsf_status wfpsf_scene_create(const wfpsf_instrument *instrument,
         require_pointer(image, "image");
         require_finite(x0, "x0");
         require_finite(y0, "y0");
-        if (!flag(options, WFPSF_OPTION_PIXEL_RESPONSE))
-            fail(WFPSF_ERROR_ARGUMENT, "PIXEL_RESPONSE = 0: scenes are averaged over pixels");
         const Image &target = image->image;
         if (target.nx() == 0 || target.ny() == 0)
             fail(WFPSF_ERROR_SIZE, "image: is empty");
         const Instrument &i = instrument->instrument;
         const Catalogue &sources = catalogue->catalogue;
-        const auto [at, varies, region] = detector_optics(*instrument, band, sca, options);
-        SceneOptics optics{at,
-                           varies,
-                           region,
-                           make_settings(i, is_mirrored(i, options), options),
-                           i.pixel_scale_arcsec(),
-                           lights_of(sources, i.band(band))};
-        double zero_flux = 1;
-        if (sources.brightness() == Brightness::ab_magnitude)
-            zero_flux = ab_zero_rate(i, band) * exposure_time(i, options);
+        SceneOptics optics = scene_optics(*instrument, band, sca, options);
+        optics.lights = lights_of(sources, i.band(band));
+        const double zero_flux = zero_flux_of(sources, i, band, options);
         std::vector<PlacedSource> placed =
             sources.placed(observation ? &observation->observation : nullptr, sca, zero_flux);
         ScenePlan plan(optics, std::move(placed), sources.shapes(), budget_of(i, options),

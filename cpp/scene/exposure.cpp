@@ -15,7 +15,6 @@ namespace wfpsf {
 namespace {
 
 constexpr const char *key_name = "SCENEKEY";
-constexpr uint32_t most_detectors = 64; // streams of random numbers that an exposure has
 
 void add(Fingerprint &print, const Chain &chain) {
     for (const Step &step : chain.steps()) {

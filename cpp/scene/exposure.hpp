@@ -29,6 +29,10 @@ struct ExposureSettings {
 // Immutable.
 class Exposure {
   public:
+    // Every detector of an exposure has a stream of random numbers of its own.
+    static constexpr uint32_t most_detectors = 64;
+    static constexpr uint32_t largest_number = 0xffffffff / most_detectors - 1;
+
     // Without `chain` files hold the electrons that light brings, sources and background.
     Exposure(const Observation &observation, Catalogue catalogue, ExposureSettings settings,
              std::function<SceneOptics(int sca)> optics, std::optional<Chain> chain);

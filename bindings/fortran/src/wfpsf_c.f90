@@ -96,6 +96,11 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_option_noise = 740
     integer(c_int32_t), parameter :: wfpsf_option_wcs_rule = 800
     integer(c_int32_t), parameter :: wfpsf_option_pa_of_fpa = 810
+    integer(c_int32_t), parameter :: wfpsf_option_scene_noise = 900
+    integer(c_int32_t), parameter :: wfpsf_option_scene_variance = 910
+    integer(c_int32_t), parameter :: wfpsf_option_scene_flux = 920
+    integer(c_int32_t), parameter :: wfpsf_option_scene_background = 930
+    integer(c_int32_t), parameter :: wfpsf_option_exposure_time = 940
     integer(c_int32_t), parameter :: wfpsf_option_real = 1
     integer(c_int32_t), parameter :: wfpsf_option_integer = 2
 
@@ -269,6 +274,60 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_study_requirements = 200
     integer(c_int32_t), parameter :: wfpsf_study_comparison = 210
     integer(c_int32_t), parameter :: wfpsf_study_convergence = 220
+
+    ! catalogue.h
+    integer(c_int32_t), parameter :: wfpsf_positions_detector = 1
+    integer(c_int32_t), parameter :: wfpsf_positions_sky = 2
+    integer(c_int32_t), parameter :: wfpsf_brightness_electrons = 1
+    integer(c_int32_t), parameter :: wfpsf_brightness_ab_magnitude = 2
+
+    ! scene.h
+    integer(c_int32_t), parameter :: wfpsf_scene_sources = 10
+    integer(c_int32_t), parameter :: wfpsf_scene_groups = 20
+    integer(c_int32_t), parameter :: wfpsf_scene_error_allowed = 30
+    integer(c_int32_t), parameter :: wfpsf_scene_error_expected = 40
+    integer(c_int32_t), parameter :: wfpsf_scene_time_expected = 50
+    integer(c_int32_t), parameter :: wfpsf_scene_memory_expected = 60
+    integer(c_int32_t), parameter :: wfpsf_scene_group_colour = 10
+    integer(c_int32_t), parameter :: wfpsf_scene_group_kind = 20
+    integer(c_int32_t), parameter :: wfpsf_scene_group_flux_from = 30
+    integer(c_int32_t), parameter :: wfpsf_scene_group_sources = 40
+    integer(c_int32_t), parameter :: wfpsf_scene_group_drawing = 50
+    integer(c_int32_t), parameter :: wfpsf_scene_group_radius = 60
+    integer(c_int32_t), parameter :: wfpsf_scene_group_eps = 70
+    integer(c_int32_t), parameter :: wfpsf_scene_group_far_floor = 75
+    integer(c_int32_t), parameter :: wfpsf_scene_group_error_expected = 80
+    integer(c_int32_t), parameter :: wfpsf_scene_group_time_expected = 90
+    integer(c_int32_t), parameter :: wfpsf_rendering_time = 10
+    integer(c_int32_t), parameter :: wfpsf_rendering_time_models = 20
+    integer(c_int32_t), parameter :: wfpsf_rendering_time_shared = 30
+    integer(c_int32_t), parameter :: wfpsf_rendering_time_own = 40
+    integer(c_int32_t), parameter :: wfpsf_rendering_time_galaxies = 45
+    integer(c_int32_t), parameter :: wfpsf_rendering_drawn = 50
+    integer(c_int32_t), parameter :: wfpsf_rendering_exact_psfs = 60
+    integer(c_int32_t), parameter :: wfpsf_rendering_error_estimate = 70
+    integer(c_int32_t), parameter :: wfpsf_truth_group = 0
+    integer(c_int32_t), parameter :: wfpsf_truth_position_x = 1
+    integer(c_int32_t), parameter :: wfpsf_truth_position_y = 2
+    integer(c_int32_t), parameter :: wfpsf_truth_flux = 3
+    integer(c_int32_t), parameter :: wfpsf_truth_flux_in_stamp = 4
+    integer(c_int32_t), parameter :: wfpsf_truth_status = 5
+    integer(c_int32_t), parameter :: wfpsf_truth_centroid_x = 6
+    integer(c_int32_t), parameter :: wfpsf_truth_centroid_y = 7
+    integer(c_int32_t), parameter :: wfpsf_truth_sigma = 8
+    integer(c_int32_t), parameter :: wfpsf_truth_e1 = 9
+    integer(c_int32_t), parameter :: wfpsf_truth_e2 = 10
+    integer(c_int32_t), parameter :: wfpsf_truth_ipc_centroid_x = 11
+    integer(c_int32_t), parameter :: wfpsf_truth_ipc_centroid_y = 12
+    integer(c_int32_t), parameter :: wfpsf_truth_ipc_sigma = 13
+    integer(c_int32_t), parameter :: wfpsf_truth_ipc_e1 = 14
+    integer(c_int32_t), parameter :: wfpsf_truth_ipc_e2 = 15
+    integer(c_int32_t), parameter :: wfpsf_kind_star = 1
+    integer(c_int32_t), parameter :: wfpsf_kind_galaxy = 2
+    integer(c_int32_t), parameter :: wfpsf_drawing_shared = 1
+    integer(c_int32_t), parameter :: wfpsf_drawing_own = 2
+    integer(c_int32_t), parameter :: wfpsf_drawing_fourier = 3
+    integer(c_int32_t), parameter :: wfpsf_truth_columns = 16
 
 end module wfpsf_constants
 
@@ -1996,6 +2055,235 @@ module wfpsf_c
             character(kind=c_char), intent(in), optional :: folder(*)
             integer(c_int32_t) :: outcome
         end function wfpsf_study_write_csv
+
+        ! catalogue.h
+        function wfpsf_catalogue_create(positions, brightness, out) &
+            bind(c, name="wfpsf_catalogue_create") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            integer(c_int32_t), value :: positions
+            integer(c_int32_t), value :: brightness
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_catalogue_create
+
+        subroutine wfpsf_catalogue_destroy(catalogue) bind(c, name="wfpsf_catalogue_destroy")
+            import :: c_ptr
+            implicit none
+            type(c_ptr), value :: catalogue
+        end subroutine wfpsf_catalogue_destroy
+
+        function wfpsf_catalogue_add_colour(catalogue, wavelength_nm, sed, colour) &
+            bind(c, name="wfpsf_catalogue_add_colour") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: catalogue
+            real(c_double), value :: wavelength_nm
+            type(c_ptr), value :: sed
+            integer(c_int32_t), intent(inout), optional :: colour
+            integer(c_int32_t) :: outcome
+        end function wfpsf_catalogue_add_colour
+
+        function wfpsf_catalogue_add_stars(catalogue, count, x, y, brightness, colour) &
+            bind(c, name="wfpsf_catalogue_add_stars") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: catalogue
+            integer(c_int64_t), value :: count
+            real(c_double), intent(in), optional :: x(*)
+            real(c_double), intent(in), optional :: y(*)
+            real(c_double), intent(in), optional :: brightness(*)
+            integer(c_int32_t), intent(in), optional :: colour
+            integer(c_int32_t) :: outcome
+        end function wfpsf_catalogue_add_stars
+
+        function wfpsf_catalogue_add_galaxies(catalogue, count, x, y, brightness, colour, &
+            sersic_index, half_light_radius_arcsec, e1, e2) &
+            bind(c, name="wfpsf_catalogue_add_galaxies") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: catalogue
+            integer(c_int64_t), value :: count
+            real(c_double), intent(in), optional :: x(*)
+            real(c_double), intent(in), optional :: y(*)
+            real(c_double), intent(in), optional :: brightness(*)
+            integer(c_int32_t), intent(in), optional :: colour
+            real(c_double), intent(in), optional :: sersic_index(*)
+            real(c_double), intent(in), optional :: half_light_radius_arcsec(*)
+            real(c_double), intent(in), optional :: e1(*)
+            real(c_double), intent(in), optional :: e2(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_catalogue_add_galaxies
+
+        function wfpsf_catalogue_size(catalogue, count) &
+            bind(c, name="wfpsf_catalogue_size") result(outcome)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: catalogue
+            integer(c_int64_t), intent(inout), optional :: count
+            integer(c_int32_t) :: outcome
+        end function wfpsf_catalogue_size
+
+        function wfpsf_instrument_ab_zero_rate(instrument, band, rate) &
+            bind(c, name="wfpsf_instrument_ab_zero_rate") result(outcome)
+            import :: c_char, c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            character(kind=c_char), intent(in), optional :: band(*)
+            real(c_double), intent(inout), optional :: rate
+            integer(c_int32_t) :: outcome
+        end function wfpsf_instrument_ab_zero_rate
+
+        ! scene.h
+        function wfpsf_scene_create(instrument, observation, band, sca, catalogue, image, x0, y0, &
+            options, out) bind(c, name="wfpsf_scene_create") result(outcome)
+            import :: c_char, c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            type(c_ptr), value :: observation
+            character(kind=c_char), intent(in), optional :: band(*)
+            integer(c_int32_t), value :: sca
+            type(c_ptr), value :: catalogue
+            type(c_ptr), value :: image
+            real(c_double), value :: x0
+            real(c_double), value :: y0
+            type(c_ptr), value :: options
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_scene_create
+
+        subroutine wfpsf_scene_destroy(scene) bind(c, name="wfpsf_scene_destroy")
+            import :: c_ptr
+            implicit none
+            type(c_ptr), value :: scene
+        end subroutine wfpsf_scene_destroy
+
+        function wfpsf_scene_get(scene, key, value) bind(c, name="wfpsf_scene_get") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: scene
+            integer(c_int32_t), value :: key
+            real(c_double), intent(inout), optional :: value
+            integer(c_int32_t) :: outcome
+        end function wfpsf_scene_get
+
+        function wfpsf_scene_get_group(scene, group, key, value) &
+            bind(c, name="wfpsf_scene_get_group") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: scene
+            integer(c_int64_t), value :: group
+            integer(c_int32_t), value :: key
+            real(c_double), intent(inout), optional :: value
+            integer(c_int32_t) :: outcome
+        end function wfpsf_scene_get_group
+
+        function wfpsf_scene_groups_of(scene, count, group) &
+            bind(c, name="wfpsf_scene_groups_of") result(outcome)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: scene
+            integer(c_int64_t), value :: count
+            integer(c_int32_t), intent(inout), optional :: group
+            integer(c_int32_t) :: outcome
+        end function wfpsf_scene_groups_of
+
+        function wfpsf_scene_text(scene, capacity, text, length) &
+            bind(c, name="wfpsf_scene_text") result(outcome)
+            import :: c_char, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: scene
+            integer(c_int64_t), value :: capacity
+            character(kind=c_char), intent(inout), optional :: text(*)
+            integer(c_int64_t), intent(inout), optional :: length
+            integer(c_int32_t) :: outcome
+        end function wfpsf_scene_text
+
+        function wfpsf_scene_render(scene, options, image, out) &
+            bind(c, name="wfpsf_scene_render") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: scene
+            type(c_ptr), value :: options
+            type(c_ptr), value :: image
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_scene_render
+
+        subroutine wfpsf_rendering_destroy(rendering) bind(c, name="wfpsf_rendering_destroy")
+            import :: c_ptr
+            implicit none
+            type(c_ptr), value :: rendering
+        end subroutine wfpsf_rendering_destroy
+
+        function wfpsf_rendering_get(rendering, key, value) &
+            bind(c, name="wfpsf_rendering_get") result(outcome)
+            import :: c_double, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: rendering
+            integer(c_int32_t), value :: key
+            real(c_double), intent(inout), optional :: value
+            integer(c_int32_t) :: outcome
+        end function wfpsf_rendering_get
+
+        function wfpsf_scene_truth(scene, count, sources, kernel, options, values) &
+            bind(c, name="wfpsf_scene_truth") result(outcome)
+            import :: c_double, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: scene
+            integer(c_int64_t), value :: count
+            integer(c_int64_t), intent(in), optional :: sources
+            type(c_ptr), value :: kernel
+            type(c_ptr), value :: options
+            real(c_double), intent(inout), optional :: values(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_scene_truth
+
+        ! exposure.h
+        function wfpsf_exposure_create(instrument, observation, band, catalogue, chain, options, &
+            out) bind(c, name="wfpsf_exposure_create") result(outcome)
+            import :: c_char, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: instrument
+            type(c_ptr), value :: observation
+            character(kind=c_char), intent(in), optional :: band(*)
+            type(c_ptr), value :: catalogue
+            type(c_ptr), value :: chain
+            type(c_ptr), value :: options
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_exposure_create
+
+        subroutine wfpsf_exposure_destroy(exposure) bind(c, name="wfpsf_exposure_destroy")
+            import :: c_ptr
+            implicit none
+            type(c_ptr), value :: exposure
+        end subroutine wfpsf_exposure_destroy
+
+        function wfpsf_exposure_path(exposure, folder, sca, capacity, text, length) &
+            bind(c, name="wfpsf_exposure_path") result(outcome)
+            import :: c_char, c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: exposure
+            character(kind=c_char), intent(in), optional :: folder(*)
+            integer(c_int32_t), value :: sca
+            integer(c_int64_t), value :: capacity
+            character(kind=c_char), intent(inout), optional :: text(*)
+            integer(c_int64_t), intent(inout), optional :: length
+            integer(c_int32_t) :: outcome
+        end function wfpsf_exposure_path
+
+        function wfpsf_exposure_make(exposure, sca, folder, options, made) &
+            bind(c, name="wfpsf_exposure_make") result(outcome)
+            import :: c_char, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: exposure
+            integer(c_int32_t), value :: sca
+            character(kind=c_char), intent(in), optional :: folder(*)
+            type(c_ptr), value :: options
+            integer(c_int32_t), intent(inout), optional :: made
+            integer(c_int32_t) :: outcome
+        end function wfpsf_exposure_make
     end interface
 
 end module wfpsf_c

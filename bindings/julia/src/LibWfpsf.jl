@@ -130,6 +130,11 @@ const WFPSF_OPTION_ORIGIN_Y = Int32(730)
 const WFPSF_OPTION_NOISE = Int32(740)
 const WFPSF_OPTION_WCS_RULE = Int32(800)
 const WFPSF_OPTION_PA_OF_FPA = Int32(810)
+const WFPSF_OPTION_SCENE_NOISE = Int32(900)
+const WFPSF_OPTION_SCENE_VARIANCE = Int32(910)
+const WFPSF_OPTION_SCENE_FLUX = Int32(920)
+const WFPSF_OPTION_SCENE_BACKGROUND = Int32(930)
+const WFPSF_OPTION_EXPOSURE_TIME = Int32(940)
 const WFPSF_OPTION_REAL = Int32(1)
 const WFPSF_OPTION_INTEGER = Int32(2)
 
@@ -1290,6 +1295,200 @@ function wfpsf_study_write_csv(study, folder)
         study, folder)
 end
 
+# catalogue.h
+const WFPSF_POSITIONS_DETECTOR = Int32(1)
+const WFPSF_POSITIONS_SKY = Int32(2)
+const WFPSF_BRIGHTNESS_ELECTRONS = Int32(1)
+const WFPSF_BRIGHTNESS_AB_MAGNITUDE = Int32(2)
+
+const wfpsf_catalogue_create_pointer = Ref(C_NULL)
+function wfpsf_catalogue_create(positions, brightness, out)
+    return ccall(wfpsf_catalogue_create_pointer[], Int32, (Int32, Int32, Ptr{Ptr{Cvoid}}),
+        positions, brightness, out)
+end
+
+const wfpsf_catalogue_destroy_pointer = Ref(C_NULL)
+function wfpsf_catalogue_destroy(catalogue)
+    return ccall(wfpsf_catalogue_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
+        catalogue)
+end
+
+const wfpsf_catalogue_add_colour_pointer = Ref(C_NULL)
+function wfpsf_catalogue_add_colour(catalogue, wavelength_nm, sed, colour)
+    return ccall(wfpsf_catalogue_add_colour_pointer[], Int32, (Ptr{Cvoid}, Float64, Ptr{Cvoid},
+        Ptr{Int32}),
+        catalogue, wavelength_nm, sed, colour)
+end
+
+const wfpsf_catalogue_add_stars_pointer = Ref(C_NULL)
+function wfpsf_catalogue_add_stars(catalogue, count, x, y, brightness, colour)
+    return ccall(wfpsf_catalogue_add_stars_pointer[], Int32, (Ptr{Cvoid}, Int64, Ptr{Float64},
+        Ptr{Float64}, Ptr{Float64}, Ptr{Int32}),
+        catalogue, count, x, y, brightness, colour)
+end
+
+const wfpsf_catalogue_add_galaxies_pointer = Ref(C_NULL)
+function wfpsf_catalogue_add_galaxies(catalogue, count, x, y, brightness, colour, sersic_index,
+    half_light_radius_arcsec, e1, e2)
+    return ccall(wfpsf_catalogue_add_galaxies_pointer[], Int32, (Ptr{Cvoid}, Int64, Ptr{Float64},
+        Ptr{Float64}, Ptr{Float64}, Ptr{Int32}, Ptr{Float64}, Ptr{Float64}, Ptr{Float64},
+        Ptr{Float64}),
+        catalogue, count, x, y, brightness, colour, sersic_index, half_light_radius_arcsec, e1, e2)
+end
+
+const wfpsf_catalogue_size_pointer = Ref(C_NULL)
+function wfpsf_catalogue_size(catalogue, count)
+    return ccall(wfpsf_catalogue_size_pointer[], Int32, (Ptr{Cvoid}, Ptr{Int64}),
+        catalogue, count)
+end
+
+const wfpsf_instrument_ab_zero_rate_pointer = Ref(C_NULL)
+function wfpsf_instrument_ab_zero_rate(instrument, band, rate)
+    return ccall(wfpsf_instrument_ab_zero_rate_pointer[], Int32, (Ptr{Cvoid}, Cstring,
+        Ptr{Float64}),
+        instrument, band, rate)
+end
+
+# scene.h
+const WFPSF_SCENE_SOURCES = Int32(10)
+const WFPSF_SCENE_GROUPS = Int32(20)
+const WFPSF_SCENE_ERROR_ALLOWED = Int32(30)
+const WFPSF_SCENE_ERROR_EXPECTED = Int32(40)
+const WFPSF_SCENE_TIME_EXPECTED = Int32(50)
+const WFPSF_SCENE_MEMORY_EXPECTED = Int32(60)
+const WFPSF_SCENE_GROUP_COLOUR = Int32(10)
+const WFPSF_SCENE_GROUP_KIND = Int32(20)
+const WFPSF_SCENE_GROUP_FLUX_FROM = Int32(30)
+const WFPSF_SCENE_GROUP_SOURCES = Int32(40)
+const WFPSF_SCENE_GROUP_DRAWING = Int32(50)
+const WFPSF_SCENE_GROUP_RADIUS = Int32(60)
+const WFPSF_SCENE_GROUP_EPS = Int32(70)
+const WFPSF_SCENE_GROUP_FAR_FLOOR = Int32(75)
+const WFPSF_SCENE_GROUP_ERROR_EXPECTED = Int32(80)
+const WFPSF_SCENE_GROUP_TIME_EXPECTED = Int32(90)
+const WFPSF_RENDERING_TIME = Int32(10)
+const WFPSF_RENDERING_TIME_MODELS = Int32(20)
+const WFPSF_RENDERING_TIME_SHARED = Int32(30)
+const WFPSF_RENDERING_TIME_OWN = Int32(40)
+const WFPSF_RENDERING_TIME_GALAXIES = Int32(45)
+const WFPSF_RENDERING_DRAWN = Int32(50)
+const WFPSF_RENDERING_EXACT_PSFS = Int32(60)
+const WFPSF_RENDERING_ERROR_ESTIMATE = Int32(70)
+const WFPSF_TRUTH_GROUP = Int32(0)
+const WFPSF_TRUTH_POSITION_X = Int32(1)
+const WFPSF_TRUTH_POSITION_Y = Int32(2)
+const WFPSF_TRUTH_FLUX = Int32(3)
+const WFPSF_TRUTH_FLUX_IN_STAMP = Int32(4)
+const WFPSF_TRUTH_STATUS = Int32(5)
+const WFPSF_TRUTH_CENTROID_X = Int32(6)
+const WFPSF_TRUTH_CENTROID_Y = Int32(7)
+const WFPSF_TRUTH_SIGMA = Int32(8)
+const WFPSF_TRUTH_E1 = Int32(9)
+const WFPSF_TRUTH_E2 = Int32(10)
+const WFPSF_TRUTH_IPC_CENTROID_X = Int32(11)
+const WFPSF_TRUTH_IPC_CENTROID_Y = Int32(12)
+const WFPSF_TRUTH_IPC_SIGMA = Int32(13)
+const WFPSF_TRUTH_IPC_E1 = Int32(14)
+const WFPSF_TRUTH_IPC_E2 = Int32(15)
+const WFPSF_KIND_STAR = Int32(1)
+const WFPSF_KIND_GALAXY = Int32(2)
+const WFPSF_DRAWING_SHARED = Int32(1)
+const WFPSF_DRAWING_OWN = Int32(2)
+const WFPSF_DRAWING_FOURIER = Int32(3)
+const WFPSF_TRUTH_COLUMNS = Int32(16)
+
+const wfpsf_scene_create_pointer = Ref(C_NULL)
+function wfpsf_scene_create(instrument, observation, band, sca, catalogue, image, x0, y0, options,
+    out)
+    return ccall(wfpsf_scene_create_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Cstring, Int32,
+        Ptr{Cvoid}, Ptr{Cvoid}, Float64, Float64, Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        instrument, observation, band, sca, catalogue, image, x0, y0, options, out)
+end
+
+const wfpsf_scene_destroy_pointer = Ref(C_NULL)
+function wfpsf_scene_destroy(scene)
+    return ccall(wfpsf_scene_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
+        scene)
+end
+
+const wfpsf_scene_get_pointer = Ref(C_NULL)
+function wfpsf_scene_get(scene, key, value)
+    return ccall(wfpsf_scene_get_pointer[], Int32, (Ptr{Cvoid}, Int32, Ptr{Float64}),
+        scene, key, value)
+end
+
+const wfpsf_scene_get_group_pointer = Ref(C_NULL)
+function wfpsf_scene_get_group(scene, group, key, value)
+    return ccall(wfpsf_scene_get_group_pointer[], Int32, (Ptr{Cvoid}, Int64, Int32, Ptr{Float64}),
+        scene, group, key, value)
+end
+
+const wfpsf_scene_groups_of_pointer = Ref(C_NULL)
+function wfpsf_scene_groups_of(scene, count, group)
+    return ccall(wfpsf_scene_groups_of_pointer[], Int32, (Ptr{Cvoid}, Int64, Ptr{Int32}),
+        scene, count, group)
+end
+
+const wfpsf_scene_text_pointer = Ref(C_NULL)
+function wfpsf_scene_text(scene, capacity, text, length)
+    return ccall(wfpsf_scene_text_pointer[], Int32, (Ptr{Cvoid}, Int64, Ptr{UInt8}, Ptr{Int64}),
+        scene, capacity, text, length)
+end
+
+const wfpsf_scene_render_pointer = Ref(C_NULL)
+function wfpsf_scene_render(scene, options, image, out)
+    return ccall(wfpsf_scene_render_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Ptr{Cvoid},
+        Ptr{Ptr{Cvoid}}),
+        scene, options, image, out)
+end
+
+const wfpsf_rendering_destroy_pointer = Ref(C_NULL)
+function wfpsf_rendering_destroy(rendering)
+    return ccall(wfpsf_rendering_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
+        rendering)
+end
+
+const wfpsf_rendering_get_pointer = Ref(C_NULL)
+function wfpsf_rendering_get(rendering, key, value)
+    return ccall(wfpsf_rendering_get_pointer[], Int32, (Ptr{Cvoid}, Int32, Ptr{Float64}),
+        rendering, key, value)
+end
+
+const wfpsf_scene_truth_pointer = Ref(C_NULL)
+function wfpsf_scene_truth(scene, count, sources, kernel, options, values)
+    return ccall(wfpsf_scene_truth_pointer[], Int32, (Ptr{Cvoid}, Int64, Ptr{Int64}, Ptr{Cvoid},
+        Ptr{Cvoid}, Ptr{Float64}),
+        scene, count, sources, kernel, options, values)
+end
+
+# exposure.h
+const wfpsf_exposure_create_pointer = Ref(C_NULL)
+function wfpsf_exposure_create(instrument, observation, band, catalogue, chain, options, out)
+    return ccall(wfpsf_exposure_create_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}, Cstring,
+        Ptr{Cvoid}, Ptr{Cvoid}, Ptr{Cvoid}, Ptr{Ptr{Cvoid}}),
+        instrument, observation, band, catalogue, chain, options, out)
+end
+
+const wfpsf_exposure_destroy_pointer = Ref(C_NULL)
+function wfpsf_exposure_destroy(exposure)
+    return ccall(wfpsf_exposure_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
+        exposure)
+end
+
+const wfpsf_exposure_path_pointer = Ref(C_NULL)
+function wfpsf_exposure_path(exposure, folder, sca, capacity, text, length)
+    return ccall(wfpsf_exposure_path_pointer[], Int32, (Ptr{Cvoid}, Cstring, Int32, Int64,
+        Ptr{UInt8}, Ptr{Int64}),
+        exposure, folder, sca, capacity, text, length)
+end
+
+const wfpsf_exposure_make_pointer = Ref(C_NULL)
+function wfpsf_exposure_make(exposure, sca, folder, options, made)
+    return ccall(wfpsf_exposure_make_pointer[], Int32, (Ptr{Cvoid}, Int32, Cstring, Ptr{Cvoid},
+        Ptr{Int32}),
+        exposure, sca, folder, options, made)
+end
+
 const pointers = [
     :wfpsf_version => wfpsf_version_pointer,
     :wfpsf_abi_number => wfpsf_abi_number_pointer,
@@ -1444,6 +1643,27 @@ const pointers = [
     :wfpsf_study_value => wfpsf_study_value_pointer,
     :wfpsf_study_text => wfpsf_study_text_pointer,
     :wfpsf_study_write_csv => wfpsf_study_write_csv_pointer,
+    :wfpsf_catalogue_create => wfpsf_catalogue_create_pointer,
+    :wfpsf_catalogue_destroy => wfpsf_catalogue_destroy_pointer,
+    :wfpsf_catalogue_add_colour => wfpsf_catalogue_add_colour_pointer,
+    :wfpsf_catalogue_add_stars => wfpsf_catalogue_add_stars_pointer,
+    :wfpsf_catalogue_add_galaxies => wfpsf_catalogue_add_galaxies_pointer,
+    :wfpsf_catalogue_size => wfpsf_catalogue_size_pointer,
+    :wfpsf_instrument_ab_zero_rate => wfpsf_instrument_ab_zero_rate_pointer,
+    :wfpsf_scene_create => wfpsf_scene_create_pointer,
+    :wfpsf_scene_destroy => wfpsf_scene_destroy_pointer,
+    :wfpsf_scene_get => wfpsf_scene_get_pointer,
+    :wfpsf_scene_get_group => wfpsf_scene_get_group_pointer,
+    :wfpsf_scene_groups_of => wfpsf_scene_groups_of_pointer,
+    :wfpsf_scene_text => wfpsf_scene_text_pointer,
+    :wfpsf_scene_render => wfpsf_scene_render_pointer,
+    :wfpsf_rendering_destroy => wfpsf_rendering_destroy_pointer,
+    :wfpsf_rendering_get => wfpsf_rendering_get_pointer,
+    :wfpsf_scene_truth => wfpsf_scene_truth_pointer,
+    :wfpsf_exposure_create => wfpsf_exposure_create_pointer,
+    :wfpsf_exposure_destroy => wfpsf_exposure_destroy_pointer,
+    :wfpsf_exposure_path => wfpsf_exposure_path_pointer,
+    :wfpsf_exposure_make => wfpsf_exposure_make_pointer,
 ]
 
 """

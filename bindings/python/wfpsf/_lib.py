@@ -102,6 +102,11 @@ WFPSF_OPTION_ORIGIN_Y = 730
 WFPSF_OPTION_NOISE = 740
 WFPSF_OPTION_WCS_RULE = 800
 WFPSF_OPTION_PA_OF_FPA = 810
+WFPSF_OPTION_SCENE_NOISE = 900
+WFPSF_OPTION_SCENE_VARIANCE = 910
+WFPSF_OPTION_SCENE_FLUX = 920
+WFPSF_OPTION_SCENE_BACKGROUND = 930
+WFPSF_OPTION_EXPOSURE_TIME = 940
 WFPSF_OPTION_REAL = 1
 WFPSF_OPTION_INTEGER = 2
 
@@ -276,6 +281,60 @@ WFPSF_STUDY_REQUIREMENTS = 200
 WFPSF_STUDY_COMPARISON = 210
 WFPSF_STUDY_CONVERGENCE = 220
 
+# catalogue.h
+WFPSF_POSITIONS_DETECTOR = 1
+WFPSF_POSITIONS_SKY = 2
+WFPSF_BRIGHTNESS_ELECTRONS = 1
+WFPSF_BRIGHTNESS_AB_MAGNITUDE = 2
+
+# scene.h
+WFPSF_SCENE_SOURCES = 10
+WFPSF_SCENE_GROUPS = 20
+WFPSF_SCENE_ERROR_ALLOWED = 30
+WFPSF_SCENE_ERROR_EXPECTED = 40
+WFPSF_SCENE_TIME_EXPECTED = 50
+WFPSF_SCENE_MEMORY_EXPECTED = 60
+WFPSF_SCENE_GROUP_COLOUR = 10
+WFPSF_SCENE_GROUP_KIND = 20
+WFPSF_SCENE_GROUP_FLUX_FROM = 30
+WFPSF_SCENE_GROUP_SOURCES = 40
+WFPSF_SCENE_GROUP_DRAWING = 50
+WFPSF_SCENE_GROUP_RADIUS = 60
+WFPSF_SCENE_GROUP_EPS = 70
+WFPSF_SCENE_GROUP_FAR_FLOOR = 75
+WFPSF_SCENE_GROUP_ERROR_EXPECTED = 80
+WFPSF_SCENE_GROUP_TIME_EXPECTED = 90
+WFPSF_RENDERING_TIME = 10
+WFPSF_RENDERING_TIME_MODELS = 20
+WFPSF_RENDERING_TIME_SHARED = 30
+WFPSF_RENDERING_TIME_OWN = 40
+WFPSF_RENDERING_TIME_GALAXIES = 45
+WFPSF_RENDERING_DRAWN = 50
+WFPSF_RENDERING_EXACT_PSFS = 60
+WFPSF_RENDERING_ERROR_ESTIMATE = 70
+WFPSF_TRUTH_GROUP = 0
+WFPSF_TRUTH_POSITION_X = 1
+WFPSF_TRUTH_POSITION_Y = 2
+WFPSF_TRUTH_FLUX = 3
+WFPSF_TRUTH_FLUX_IN_STAMP = 4
+WFPSF_TRUTH_STATUS = 5
+WFPSF_TRUTH_CENTROID_X = 6
+WFPSF_TRUTH_CENTROID_Y = 7
+WFPSF_TRUTH_SIGMA = 8
+WFPSF_TRUTH_E1 = 9
+WFPSF_TRUTH_E2 = 10
+WFPSF_TRUTH_IPC_CENTROID_X = 11
+WFPSF_TRUTH_IPC_CENTROID_Y = 12
+WFPSF_TRUTH_IPC_SIGMA = 13
+WFPSF_TRUTH_IPC_E1 = 14
+WFPSF_TRUTH_IPC_E2 = 15
+WFPSF_KIND_STAR = 1
+WFPSF_KIND_GALAXY = 2
+WFPSF_DRAWING_SHARED = 1
+WFPSF_DRAWING_OWN = 2
+WFPSF_DRAWING_FOURIER = 3
+WFPSF_TRUTH_COLUMNS = 16
+
 wfpsf_options_p = _handle("wfpsf_options")
 wfpsf_image_p = _handle("wfpsf_image")
 wfpsf_instrument_p = _handle("wfpsf_instrument")
@@ -290,6 +349,10 @@ wfpsf_chain_p = _handle("wfpsf_chain")
 wfpsf_observation_p = _handle("wfpsf_observation")
 wfpsf_moments_p = _handle("wfpsf_moments")
 wfpsf_study_p = _handle("wfpsf_study")
+wfpsf_catalogue_p = _handle("wfpsf_catalogue")
+wfpsf_scene_p = _handle("wfpsf_scene")
+wfpsf_rendering_p = _handle("wfpsf_rendering")
+wfpsf_exposure_p = _handle("wfpsf_exposure")
 
 wfpsf_progress = CFUNCTYPE(c_int32, c_double, c_void_p)
 
@@ -529,6 +592,37 @@ FUNCTIONS = {
     "wfpsf_study_value": (c_int32, [wfpsf_study_p, c_int32, c_int64, c_int64, POINTER(c_double)]),
     "wfpsf_study_text": (c_char_p, [wfpsf_study_p, c_int32, c_int64, c_int64]),
     "wfpsf_study_write_csv": (c_int32, [wfpsf_study_p, c_char_p]),
+    "wfpsf_catalogue_create": (c_int32, [c_int32, c_int32, POINTER(wfpsf_catalogue_p)]),
+    "wfpsf_catalogue_destroy": (None, [wfpsf_catalogue_p]),
+    "wfpsf_catalogue_add_colour": (c_int32, [wfpsf_catalogue_p, c_double, wfpsf_sed_p,
+        POINTER(c_int32)]),
+    "wfpsf_catalogue_add_stars": (c_int32, [wfpsf_catalogue_p, c_int64, c_void_p, c_void_p,
+        c_void_p, POINTER(c_int32)]),
+    "wfpsf_catalogue_add_galaxies": (c_int32, [wfpsf_catalogue_p, c_int64, c_void_p, c_void_p,
+        c_void_p, POINTER(c_int32), c_void_p, c_void_p, c_void_p, c_void_p]),
+    "wfpsf_catalogue_size": (c_int32, [wfpsf_catalogue_p, POINTER(c_int64)]),
+    "wfpsf_instrument_ab_zero_rate": (c_int32, [wfpsf_instrument_p, c_char_p, POINTER(c_double)]),
+    "wfpsf_scene_create": (c_int32, [wfpsf_instrument_p, wfpsf_observation_p, c_char_p, c_int32,
+        wfpsf_catalogue_p, wfpsf_image_p, c_double, c_double, wfpsf_options_p,
+        POINTER(wfpsf_scene_p)]),
+    "wfpsf_scene_destroy": (None, [wfpsf_scene_p]),
+    "wfpsf_scene_get": (c_int32, [wfpsf_scene_p, c_int32, POINTER(c_double)]),
+    "wfpsf_scene_get_group": (c_int32, [wfpsf_scene_p, c_int64, c_int32, POINTER(c_double)]),
+    "wfpsf_scene_groups_of": (c_int32, [wfpsf_scene_p, c_int64, POINTER(c_int32)]),
+    "wfpsf_scene_text": (c_int32, [wfpsf_scene_p, c_int64, c_char_p, POINTER(c_int64)]),
+    "wfpsf_scene_render": (c_int32, [wfpsf_scene_p, wfpsf_options_p, wfpsf_image_p,
+        POINTER(wfpsf_rendering_p)]),
+    "wfpsf_rendering_destroy": (None, [wfpsf_rendering_p]),
+    "wfpsf_rendering_get": (c_int32, [wfpsf_rendering_p, c_int32, POINTER(c_double)]),
+    "wfpsf_scene_truth": (c_int32, [wfpsf_scene_p, c_int64, POINTER(c_int64), wfpsf_ipc_kernel_p,
+        wfpsf_options_p, c_void_p]),
+    "wfpsf_exposure_create": (c_int32, [wfpsf_instrument_p, wfpsf_observation_p, c_char_p,
+        wfpsf_catalogue_p, wfpsf_chain_p, wfpsf_options_p, POINTER(wfpsf_exposure_p)]),
+    "wfpsf_exposure_destroy": (None, [wfpsf_exposure_p]),
+    "wfpsf_exposure_path": (c_int32, [wfpsf_exposure_p, c_char_p, c_int32, c_int64, c_char_p,
+        POINTER(c_int64)]),
+    "wfpsf_exposure_make": (c_int32, [wfpsf_exposure_p, c_int32, c_char_p, wfpsf_options_p,
+        POINTER(c_int32)]),
 }
 
 

@@ -105,13 +105,14 @@ enum { WFPSF_OPTION_REAL = 1, WFPSF_OPTION_INTEGER = 2 };
       "0: the field's distortion inside each detector, the Sun of the ICRS; 1: as GalSim has "     \
       "them")                                                                                      \
     X(PA_OF_FPA, 810, INTEGER, 0, 0, 1,                                                            \
-      "1: position angles that are given are the focal plane's, not the observatory's")             \
+      "1: position angles that are given are the focal plane's, not the observatory's")            \
     X(SCENE_NOISE, 900, REAL, 0.01, 1e-6, 1e6,                                                     \
       "largest error of a scene's pixel, in units of its noise")                                   \
     X(SCENE_VARIANCE, 910, REAL, WFPSF_AUTOMATIC, 1e-12, 1e12,                                     \
       "variance of a pixel's noise beside the sources' own, e-^2; automatic: the instrument's "    \
       "dark current, read noise and SCENE_BACKGROUND")                                             \
-    X(SCENE_FLUX, 920, REAL, 1, 1e-6, 1, "largest share of a source's light left out of its stamp") \
+    X(SCENE_FLUX, 920, REAL, 1, 1e-6, 1,                                                           \
+      "largest share of a source's light left out of its stamp")                                   \
     X(SCENE_BACKGROUND, 930, REAL, 0, 0, 1e9, "mean background of a native pixel, e-")             \
     X(EXPOSURE_TIME, 940, REAL, WFPSF_AUTOMATIC, 1e-3, 1e9,                                        \
       "exposure time, s; automatic: the instrument's own")

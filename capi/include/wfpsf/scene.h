@@ -50,7 +50,7 @@ enum { WFPSF_SCENE_PROPERTY_LIST(WFPSF_SCENE_PROPERTY_ENUM) };
     X(KIND, 20, "WFPSF_KIND_*")                                                                    \
     X(FLUX_FROM, 30, "its sources have this flux or more, up to twice as much, e-")                \
     X(SOURCES, 40, "how many sources it has")                                                      \
-    X(DRAWING, 50, "WFPSF_DRAWING_*")                                                             \
+    X(DRAWING, 50, "WFPSF_DRAWING_*")                                                              \
     X(RADIUS, 60, "half size of the stamps, native pixels")                                        \
     X(EPS, 70, "error of the PSF, in units of its peak")                                           \
     X(FAR_FLOOR, 75, "light beyond the stamp is drawn down to that share of it; 0: none is")       \
@@ -77,7 +77,7 @@ enum {
     X(TIME_MODELS, 20, "the part of it that went into PSFs of the whole detector")                 \
     X(TIME_SHARED, 30, "the part for sources drawn with those")                                    \
     X(TIME_OWN, 40, "the part for sources with PSFs of their own")                                 \
-    X(TIME_GALAXIES, 45, "the part for galaxies drawn by Fourier transform")                        \
+    X(TIME_GALAXIES, 45, "the part for galaxies drawn by Fourier transform")                       \
     X(DRAWN, 50, "sources whose stamps reach the image")                                           \
     X(EXACT_PSFS, 60, "exact PSFs that were made")                                                 \
     X(ERROR_ESTIMATE, 70, "how far a pixel may be off, e-, by the PSFs as they came out")
@@ -107,9 +107,8 @@ typedef struct wfpsf_rendering wfpsf_rendering;
  *           ERROR_NO_MEMORY, WARNING_NOT_CERTIFIED (no plan meets the budget)
  */
 WFPSF_EXPORT wfpsf_status wfpsf_scene_create(const wfpsf_instrument *instrument,
-                                             const wfpsf_observation *observation,
-                                             const char *band, int32_t sca,
-                                             const wfpsf_catalogue *catalogue,
+                                             const wfpsf_observation *observation, const char *band,
+                                             int32_t sca, const wfpsf_catalogue *catalogue,
                                              const wfpsf_image *image, double x0, double y0,
                                              const wfpsf_options *options, wfpsf_scene **out);
 
@@ -185,8 +184,8 @@ WFPSF_EXPORT wfpsf_status wfpsf_rendering_get(const wfpsf_rendering *rendering, 
 /** X(NAME, column, text): columns of the truth table. NaN where there is no answer. */
 #define WFPSF_TRUTH_LIST(X)                                                                        \
     X(GROUP, 0, "group of the source; -1: it has no place, and all else is NaN")                   \
-    X(POSITION_X, 1, "position on the detector, pixels")                                                    \
-    X(POSITION_Y, 2, "position on the detector, pixels")                                                    \
+    X(POSITION_X, 1, "position on the detector, pixels")                                           \
+    X(POSITION_Y, 2, "position on the detector, pixels")                                           \
     X(FLUX, 3, "e-, all of it")                                                                    \
     X(FLUX_IN_STAMP, 4, "e- that its stamp holds, if it lies within the image")                    \
     X(STATUS, 5, "status of the moments, wfpsf_status; of those after IPC if these are sound")     \
@@ -202,8 +201,11 @@ WFPSF_EXPORT wfpsf_status wfpsf_rendering_get(const wfpsf_rendering *rendering, 
     X(IPC_E2, 15, "the same after IPC")
 
 #define WFPSF_TRUTH_ENUM(name, column, text) WFPSF_TRUTH_##name = (column),
-enum { WFPSF_TRUTH_LIST(WFPSF_TRUTH_ENUM) WFPSF_TRUTH_COLUMNS };
+enum { WFPSF_TRUTH_LIST(WFPSF_TRUTH_ENUM) };
 #undef WFPSF_TRUTH_ENUM
+
+/** How many columns there are. */
+enum { WFPSF_TRUTH_COLUMNS = 16 };
 
 /**
  * What is true of some sources: adaptive moments of each as it is seen through its PSF and pixel,

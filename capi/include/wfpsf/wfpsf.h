@@ -9,6 +9,7 @@
 #include <wfpsf/catalogue.h>
 #include <wfpsf/chain.h>
 #include <wfpsf/design.h>
+#include <wfpsf/exposure.h>
 #include <wfpsf/image.h>
 #include <wfpsf/instrument.h>
 #include <wfpsf/ipc.h>
