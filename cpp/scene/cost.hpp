@@ -59,9 +59,10 @@ inline double far_blocks(double pixels) {
 // What they are made from.
 constexpr double making_far_light = 0.35;
 
-// A galaxy on that many pixels by Fourier transform.
-inline double galaxy(double pixels) {
-    return 5e-6 + 3e-8 * pixels;
+// A galaxy that fills so much by Fourier transform; beyond some size, on coarser grids.
+inline double galaxy(double radius, double share) {
+    const double width = std::min(2 * radius + 1, 1200.0);
+    return 5e-6 + 3e-8 * width * width * (1 + 0.1 * digits(share));
 }
 
 } // namespace wfpsf::cost

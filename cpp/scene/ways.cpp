@@ -45,16 +45,17 @@ double Ways::cut(double radius) const {
     return radius >= group_.reach ? 0 : colour_.profile.brightest_beyond(radius);
 }
 
-// What all sources of the group leave out on the average, if each leaves out that share.
-double Ways::mean(double light) const {
-    return group_.flux * light / (image_.native_x() * image_.native_y());
+// What all sources of the group leave out of a pixel on the average, if each leaves out that share
+// of its light, `cut` of any pixel at most.
+double Ways::mean(double light, double cut) const {
+    return group_.flux * std::min(light / (image_.native_x() * image_.native_y()), cut);
 }
 
 void Ways::with_and_without_far(const Way &way, double time_s, double psf_error,
                                 const Take &take) const {
     const double beyond = way.radius >= group_.reach ? 0 : colour_.profile.beyond(way.radius);
     if (beyond <= budget_.flux)
-        take({way, time_s, {group_.densest * (cut(way.radius) + psf_error), mean(beyond)}});
+        take({way, time_s, {group_.densest * (cut(way.radius) + psf_error), mean(beyond, cut(way.radius))}});
     if (!colour_.far || way.radius < colour_.far->nearest() || way.radius >= group_.reach)
         return;
     const FarReach &far = *colour_.far;
@@ -76,7 +77,7 @@ void Ways::with_and_without_far(const Way &way, double time_s, double psf_error,
         const double time = own ? cost::far_light(pixels(end)) : cost::far_blocks(step.pixels);
         take({with,
               time_s + count() * time,
-              {group_.densest * (left + off + psf_error), mean(light)}});
+              {group_.densest * (left + off + psf_error), mean(light, left)}});
     }
 }
 
@@ -110,16 +111,15 @@ void Ways::of_own(const Take &take) const {
 void Ways::of_fourier(const Take &take) const {
     if (!group_.is_galaxy || image_.oversampling != 1)
         return;
-    for (double share = 1e-2; share > 1e-12; share /= 2) {
+    for (double share = 1e-2; share > 1e-10; share /= 2) {
         const double radius = group_.half_light * (2 + group_.index * -std::log10(share));
         // Light below the tolerance is left out: no more in all than on as large an area as is
         // drawn.
         const double light = std::min(0.5, 4 * radius * radius * share);
-        if (light > budget_.flux)
-            continue;
-        take({{Drawing::fourier, radius, share, 0, 0},
-              count() * cost::galaxy(pixels(radius + 8)),
-              {group_.densest * share, mean(light)}});
+        if (light <= budget_.flux)
+            take({{Drawing::fourier, radius, share, 0, 0},
+                  count() * cost::galaxy(radius + 8, share),
+                  {group_.densest * share, mean(light, share)}});
     }
 }
 

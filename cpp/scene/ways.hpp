@@ -87,7 +87,7 @@ class Ways {
     double width(double radius) const;
     double point_error() const;
     double cut(double radius) const;
-    double mean(double light) const;
+    double mean(double light, double cut) const;
     // The same stamps without and with far light beyond them.
     void with_and_without_far(const Way &way, double time_s, double psf_error,
                               const Take &take) const;
