@@ -8,6 +8,7 @@ set -euo pipefail
 packages=(
     cmake ninja-build gcc g++ gfortran pkg-config binutils python3 python3-numpy
     libeigen3-dev libfftw3-dev libcfitsio-dev liberfa-dev wcslib-dev zlib1g-dev librandom123-dev libgd-dev libgtest-dev
+    libopenmpi-dev openmpi-bin
     dpkg-dev file
 )
 case "${1:-}" in

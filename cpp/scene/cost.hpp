@@ -59,6 +59,11 @@ inline double far_blocks(double pixels) {
 // What they are made from.
 constexpr double making_far_light = 0.35;
 
+// What galaxies are drawn with.
+inline double otf(double bandwidth) {
+    return bandwidth == 0 ? 0.1 : 0.8;
+}
+
 // A galaxy that fills so much by Fourier transform; beyond some size, on coarser grids.
 inline double galaxy(double radius, double share) {
     const double width = std::min(2 * radius + 1, 1200.0);

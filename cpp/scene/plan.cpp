@@ -72,6 +72,8 @@ const char *name_of(Drawing drawing) {
         return "own";
     case Drawing::fourier:
         return "fourier";
+    case Drawing::fourier_own:
+        return "f. own";
     }
     return "";
 }
@@ -182,10 +184,7 @@ void ScenePlan::settle_colour(int32_t colour, double price) {
         Best &best = without.emplace_back(price, budget_.error() / (2 * safety_of_squares));
         const Ways ways(planned_[g].group, facts, budget_, image_);
         ways.of_own([&](const Offer &offer) { best.consider(offer); });
-        ways.of_fourier([&](Offer offer) {
-            offer.error.local += cell_error_[g];
-            best.consider(offer);
-        });
+        ways.of_fourier(cell_error_[g], [&](const Offer &offer) { best.consider(offer); });
     }
     std::vector<Best> taken;
     SharedModel chosen;
@@ -233,16 +232,20 @@ void ScenePlan::settle(double price) {
     error_ = together(errors);
 }
 
-// The lowest price of error at which all of it fits the budget.
+// The lowest price of error at which all of it fits the budget. Where nothing does, that at which
+// it comes close to the least error there is: one group that is beyond help must not make all
+// others dear.
 void ScenePlan::choose() {
+    constexpr double close = 1.2;
     double low = -12, high = 12; // log10, s per e-
     settle(std::pow(10.0, high));
-    if (planned_.empty() || !meets_budget())
+    if (planned_.empty())
         return;
+    const double target = meets_budget() ? budget_.error() : close * error_;
     while (high - low > 0.02) {
         const double middle = (low + high) / 2;
         settle(std::pow(10.0, middle));
-        (meets_budget() ? high : low) = middle;
+        (error_ <= target ? high : low) = middle;
     }
     settle(std::pow(10.0, high));
 }

@@ -190,8 +190,12 @@ template <class T> class Renderer {
             return static_cast<size_t>(std::clamp(part, 0.0, static_cast<double>(cells - 1)));
         };
         const Region &region = optics_.region;
-        for (const PlacedSource &source : plan_.sources())
-            if (source.flux != 0 && plan_.group_of(source).way.drawing == Drawing::fourier) {
+        std::vector<const PlacedSource *> own;
+        for (const PlacedSource &source : plan_.sources()) {
+            const Drawing drawing = plan_.group_of(source).way.drawing;
+            if (source.flux != 0 && drawing == Drawing::fourier_own)
+                own.push_back(&source);
+            if (source.flux != 0 && drawing == Drawing::fourier) {
                 const size_t x = cell_of(source.x, region.x0, region.x1);
                 const size_t y = cell_of(source.y, region.y0, region.y1);
                 parts[(static_cast<size_t>(source.colour) * static_cast<size_t>(cells) + y) *
@@ -199,16 +203,19 @@ template <class T> class Renderer {
                       x]
                     .push_back(&source);
             }
+        }
         for (size_t part = 0; part < parts.size(); ++part) {
             manners_.progress.report(0.5 + 0.2 * static_cast<double>(part) /
                                                static_cast<double>(parts.size()));
             if (!parts[part].empty())
                 draw_galaxies(parts[part]);
         }
+        for (const PlacedSource *galaxy : own)
+            draw_galaxies(std::span(&galaxy, 1));
         report_.galaxies_s = clock.seconds();
     }
 
-    void draw_galaxies(const std::vector<const PlacedSource *> &galaxies) {
+    void draw_galaxies(std::span<const PlacedSource *const> galaxies) {
         double x = 0, y = 0, share = 1;
         for (const PlacedSource *galaxy : galaxies) {
             x += galaxy->x / static_cast<double>(galaxies.size());

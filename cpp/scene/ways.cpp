@@ -55,7 +55,9 @@ void Ways::with_and_without_far(const Way &way, double time_s, double psf_error,
                                 const Take &take) const {
     const double beyond = way.radius >= group_.reach ? 0 : colour_.profile.beyond(way.radius);
     if (beyond <= budget_.flux)
-        take({way, time_s, {group_.densest * (cut(way.radius) + psf_error), mean(beyond, cut(way.radius))}});
+        take({way,
+              time_s,
+              {group_.densest * (cut(way.radius) + psf_error), mean(beyond, cut(way.radius))}});
     if (!colour_.far || way.radius < colour_.far->nearest() || way.radius >= group_.reach)
         return;
     const FarReach &far = *colour_.far;
@@ -108,7 +110,7 @@ void Ways::of_own(const Take &take) const {
         }
 }
 
-void Ways::of_fourier(const Take &take) const {
+void Ways::of_fourier(double place_error, const Take &take) const {
     if (!group_.is_galaxy || image_.oversampling != 1)
         return;
     for (double share = 1e-2; share > 1e-10; share /= 2) {
@@ -116,10 +118,16 @@ void Ways::of_fourier(const Take &take) const {
         // Light below the tolerance is left out: no more in all than on as large an area as is
         // drawn.
         const double light = std::min(0.5, 4 * radius * radius * share);
-        if (light <= budget_.flux)
-            take({{Drawing::fourier, radius, share, 0, 0},
-                  count() * cost::galaxy(radius + 8, share),
-                  {group_.densest * share, mean(light, share)}});
+        if (light > budget_.flux)
+            continue;
+        const double drawing = cost::galaxy(radius + 8, share), left = mean(light, share);
+        const double off = group_.densest * share;
+        take({{Drawing::fourier, radius, share, 0, 0},
+              count() * drawing,
+              {off + place_error, left}});
+        take({{Drawing::fourier_own, radius, share, 0, 0},
+              count() * (drawing + cost::otf(colour_.bandwidth)),
+              {off, left}});
     }
 }
 

@@ -24,9 +24,10 @@ struct SceneBudget {
 };
 
 enum class Drawing {
-    shared,  // as stars, each with the PSF of its place from a model of the whole detector
-    own,     // as stars, with PSFs made for each
-    fourier, // as galaxies, by Fourier transform
+    shared,      // as stars, each with the PSF of its place from a model of the whole detector
+    own,         // as stars, with PSFs made for each
+    fourier,     // as galaxies, by Fourier transform, with the PSF of a part of the detector
+    fourier_own, // the same with PSFs made for each
 };
 
 struct Way {
@@ -79,7 +80,8 @@ class Ways {
 
     void of_shared(const SharedModel &model, const Take &take) const;
     void of_own(const Take &take) const;
-    void of_fourier(const Take &take) const; // of galaxies
+    // Of galaxies; `place_error`: of a pixel, if the PSF is that of a part of the detector.
+    void of_fourier(double place_error, const Take &take) const;
 
   private:
     double count() const { return static_cast<double>(group_.count); }

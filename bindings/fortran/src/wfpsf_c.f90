@@ -327,6 +327,7 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_drawing_shared = 1
     integer(c_int32_t), parameter :: wfpsf_drawing_own = 2
     integer(c_int32_t), parameter :: wfpsf_drawing_fourier = 3
+    integer(c_int32_t), parameter :: wfpsf_drawing_fourier_own = 4
     integer(c_int32_t), parameter :: wfpsf_truth_columns = 16
 
 end module wfpsf_constants

@@ -1395,6 +1395,7 @@ const WFPSF_KIND_GALAXY = Int32(2)
 const WFPSF_DRAWING_SHARED = Int32(1)
 const WFPSF_DRAWING_OWN = Int32(2)
 const WFPSF_DRAWING_FOURIER = Int32(3)
+const WFPSF_DRAWING_FOURIER_OWN = Int32(4)
 const WFPSF_TRUTH_COLUMNS = Int32(16)
 
 const wfpsf_scene_create_pointer = Ref(C_NULL)

@@ -68,7 +68,9 @@ enum { WFPSF_KIND_STAR = 1, WFPSF_KIND_GALAXY = 2 };
 enum {
     WFPSF_DRAWING_SHARED = 1, /**< as stars, by a model of the whole detector's PSF */
     WFPSF_DRAWING_OWN = 2,    /**< as stars, by a PSF made for each */
-    WFPSF_DRAWING_FOURIER = 3 /**< as galaxies, by Fourier transform */
+    /** as galaxies, by Fourier transform, with the PSF of a part of the detector */
+    WFPSF_DRAWING_FOURIER = 3,
+    WFPSF_DRAWING_FOURIER_OWN = 4 /**< the same with a PSF made for each */
 };
 
 /** X(NAME, key, text): what rendering came to. */
