@@ -6,7 +6,7 @@ import numpy as np
 import wfpsf
 
 SIDE, X0, Y0 = 512, 1800, 1800  # the part of the detector, and its first pixel
-STARS, GALAXIES = 300, 300
+STARS, GALAXIES = 200, 100
 
 random = np.random.default_rng(42)
 
@@ -16,7 +16,7 @@ def places(count):
 
 
 catalogue = wfpsf.Catalogue("detector", "electrons")
-catalogue.add_stars(*places(STARS), 10**random.uniform(1, 5, STARS))
+catalogue.add_stars(*places(STARS), 10**random.uniform(1, 4, STARS))
 ellipticity, angle = 0.3 * random.random(GALAXIES), 2 * np.pi * random.random(GALAXIES)
 catalogue.add_galaxies(*places(GALAXIES), 10**random.uniform(2, 3, GALAXIES),
                        sersic_index=random.choice([1.0, 2.0], GALAXIES),
