@@ -156,7 +156,8 @@ function ab_zero_rate(instrument::Instrument, band::AbstractString)
 end
 
 """
-    Scene(instrument, band, sca, catalogue, image, x0 = 1, y0 = 1; observation = nothing, options...)
+    Scene(instrument, band, sca, catalogue, image, x0 = 1, y0 = 1; observation = nothing,
+          options...)
     Scene(f, ...)
 
 All sources of a [`Catalogue`](@ref) on an image of detector `sca`, each modelled as far as an error
@@ -170,8 +171,8 @@ that costs least in all within the budget. `string(scene)` is the plan, a line a
 [`scene_groups`](@ref) and [`groups_of_sources`](@ref) tell it in numbers, [`render!`](@ref) carries
 it out, [`scene_truth`](@ref) says what is true of its sources.
 
-`image` is an [`Image`](@ref), of which size and oversampling count, or `(nx, ny)`; (x0, y0) is where
-the centre of its first native pixel stands on the detector, whose first pixel's is (1, 1).
+`image` is an [`Image`](@ref), of which size and oversampling count, or `(nx, ny)`; (x0, y0) is
+where the centre of its first native pixel stands on the detector, whose first pixel's is (1, 1).
 `observation` is for positions on the sky. Options: `scene_noise`, `scene_variance`, `scene_flux`,
 `scene_background`, `exposure_time` (for magnitudes); `struts`, `piston_tilt`, `frame`,
 `field_rule`, `jitter_xx`, `jitter_xy`, `jitter_yy`, `charge_diffusion`, `zernikes` and `opd` as for
@@ -235,9 +236,9 @@ The groups as planned: a vector of named tuples of `colour` (its number in the c
 (`:star` or `:galaxy`), `flux_from` (the sources have this flux or more, up to twice as much, e-),
 `sources` (how many), `drawing` (`:shared`: stars by a model of the whole detector's PSF, `:own`:
 stars by a PSF made for each, `:fourier`: galaxies), `radius` (half size of the stamps, native
-pixels), `eps` (error of the PSF, in units of its peak), `far_floor` (light beyond the stamp is drawn
-down to that share of it; 0: none is), `error_expected` (how far the group may bring a pixel off,
-e-), `time_expected` (s).
+pixels), `eps` (error of the PSF, in units of its peak), `far_floor` (light beyond the stamp is
+drawn down to that share of it; 0: none is), `error_expected` (how far the group may bring a pixel
+off, e-), `time_expected` (s).
 """
 scene_groups(scene::Scene) = [group_of(scene, group) for group = 1:Int(scene.groups)]
 
@@ -273,10 +274,10 @@ for. Its pixels are electrons. Options: `threads` (which changes the time and no
 `memory_limit`, `progress`, `force`.
 
 Returns what it came to: `time` (wall-clock, s), `time_models`, `time_shared`, `time_own`,
-`time_galaxies` (the parts of it that went into PSFs of the whole detector, sources drawn with those,
-sources with PSFs of their own, galaxies drawn by Fourier transform), `drawn` (sources whose stamps
-reach the image), `exact_psfs` (that were made), `error_estimate` (how far a pixel may be off, e-,
-by the PSFs as they came out).
+`time_galaxies` (the parts of it that went into PSFs of the whole detector, sources drawn with
+those, sources with PSFs of their own, galaxies drawn by Fourier transform), `drawn` (sources whose
+stamps reach the image), `exact_psfs` (that were made), `error_estimate` (how far a pixel may be
+off, e-, by the PSFs as they came out).
 """
 function render!(image::Image, scene::Scene; keywords...)
     rendering = with_options(RENDER_OPTIONS, keywords) do options
@@ -300,8 +301,8 @@ What is true of some sources, by their numbers in the catalogue, by default of a
 star.
 
 A named tuple of vectors: `group` (0: the source has no place), `position_x`, `position_y` (on the
-detector, pixels), `flux` (e-, all of it), `flux_in_stamp`, and adaptive moments of each source as it
-is seen through its PSF and pixel, without noise and neighbours: `status`, `centroid_x`,
+detector, pixels), `flux` (e-, all of it), `flux_in_stamp`, and adaptive moments of each source as
+it is seen through its PSF and pixel, without noise and neighbours: `status`, `centroid_x`,
 `centroid_y` (on the detector), `sigma` (native pixels), `e1`, `e2`, and with a `kernel` of native
 pixels `ipc_centroid_x` ... `ipc_e2`, after interpixel capacitance. NaN where there is no answer.
 Options: `eps` (of the PSFs), `moments_tolerance`, `threads`.
