@@ -6,7 +6,7 @@ x, y, flux = [1011.3, 1041.7, 1e9], [1021.1, 1051.0, 1.0], [5000, 300, 8]
 catalogue = Catalogue(:detector, :electrons)
 add_stars!(catalogue, x, y, flux)
 @test length(catalogue) == 3
-scene = Scene(roman, "J129", 7, catalogue, (64, 64), 1001, 1001; budget...)
+planned = Scene(roman, "J129", 7, catalogue, (64, 64), 1001, 1001; budget...)
 
 @testset "rendering" begin
     # The same stars one by one.
@@ -16,33 +16,33 @@ scene = Scene(roman, "J129", 7, catalogue, (64, 64), 1001, 1001; budget...)
         add_bright_star!(one_by_one, psf, x[k] - 1000, y[k] - 1000; flux = flux[k])
     end
     image = Image(Float64, 64, 64)
-    rendering = render!(image, scene; threads = 2)
-    @test scene.error_allowed ≈ 0.1
-    @test rendering.error_estimate < scene.error_allowed
+    rendering = render!(image, planned; threads = 2)
+    @test planned.error_allowed ≈ 0.1
+    @test rendering.error_estimate < planned.error_allowed
     @test rendering.drawn == 2
-    @test 0 < maximum(abs, image.pixels - one_by_one.pixels) <= scene.error_allowed
-    @test status_of(() -> render!(image, scene; progress = part -> false)) ==
+    @test 0 < maximum(abs, image.pixels - one_by_one.pixels) <= planned.error_allowed
+    @test status_of(() -> render!(image, planned; progress = part -> false)) ==
           LibWfpsf.WFPSF_ERROR_CANCELLED
-    @test status_of(() -> render!(Image(Float64, 32, 64), scene)) == LibWfpsf.WFPSF_ERROR_SIZE
+    @test status_of(() -> render!(Image(Float64, 32, 64), planned)) == LibWfpsf.WFPSF_ERROR_SIZE
 end
 
 @testset "plan" begin
-    @test (scene.sources, scene.groups) == (3, 3)
-    @test issetequal(propertynames(scene), keys(Wfpsf.SCENE_PROPERTIES))
-    @test_throws ArgumentError scene.colour
-    bright, faint = scene_groups(scene)[groups_of_sources(scene)[1:2]]
+    @test (planned.sources, planned.groups) == (3, 3)
+    @test issetequal(propertynames(planned), keys(Wfpsf.SCENE_PROPERTIES))
+    @test_throws ArgumentError planned.colour
+    bright, faint = scene_groups(planned)[groups_of_sources(planned)[1:2]]
     @test (bright.kind, bright.sources, bright.colour) == (:star, 1, 1)
     @test bright.drawing in (:shared, :own)
     @test (bright.flux_from, faint.flux_from) == (4096, 256)
     @test bright.radius > faint.radius
-    @test occursin("3 sources", string(scene))
+    @test occursin("3 sources", string(planned))
 end
 
 @testset "truth" begin
-    table = scene_truth(scene, [2, 1]; kernel = IPCKernel(0.02, 0.002))
+    table = scene_truth(planned, [2, 1]; kernel = IPCKernel(0.02, 0.002))
     @test table.position_x == x[[2, 1]] && table.position_y == y[[2, 1]]
     @test table.flux == flux[[2, 1]]
-    @test table.group == groups_of_sources(scene)[[2, 1]]
+    @test table.group == groups_of_sources(planned)[[2, 1]]
     # The star's moments by other means.
     star = draw(PSF(roman, "J129", 7, x[1], y[1]; eps = 1e-8), 256, 256; oversampling = 4)
     m = adaptive_moments(star)
@@ -50,9 +50,9 @@ end
     @test table.e2[2] ≈ m.e2 atol = 1e-4
     @test table.centroid_x[2] - x[1] ≈ (m.centroid_x - 128.5) / 4 atol = 1e-4
     @test table.ipc_sigma[2] / table.sigma[2] ≈ 1.06 atol = 0.01 # the paper's
-    @test isequal(scene_truth(scene).sigma[1:2], table.sigma[[2, 1]])
-    @test all(isnan, scene_truth(scene).ipc_sigma)
-    @test status_of(() -> scene_truth(scene, [4])) == LibWfpsf.WFPSF_ERROR_RANGE
+    @test isequal(scene_truth(planned).sigma[1:2], table.sigma[[2, 1]])
+    @test all(isnan, scene_truth(planned).ipc_sigma)
+    @test status_of(() -> scene_truth(planned, [4])) == LibWfpsf.WFPSF_ERROR_RANGE
 end
 
 @testset "galaxies" begin
