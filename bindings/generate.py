@@ -101,7 +101,8 @@ def arguments(text, documentation, callback_types):
             kind = CALLBACK
         # Numbers come as arrays when const, or when their count was given before; handles and
         # integers, when the documentation says "count handles" or "count integers".
-        is_array = (kind == "const double*" or (kind == "double*" and count_given)
+        is_array = (kind in ("const double*", "const int32_t*", "const int64_t*")
+                    or (kind == "double*" and count_given)
                     or bool(re.search(rf"\b{name}\s+count (handles|integers)", documentation)))
         result.append(Argument(kind, name, is_array))
         count_given = count_given or name in ("count", "capacity")

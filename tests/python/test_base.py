@@ -15,7 +15,7 @@ import warnings
 import numpy as np
 import wfpsf
 from support import gaussian, status_of
-from wfpsf import _chain, _ipc, _moments, _observation, _psf, _size, _study
+from wfpsf import _chain, _ipc, _moments, _observation, _psf, _scene, _size, _study
 
 
 def load_tests(loader, tests, pattern):
@@ -172,7 +172,8 @@ class Options(unittest.TestCase):
         taken = {*_psf.PSF_OPTIONS, *_psf.STAR_OPTIONS, *_psf.DRAW_OPTIONS, *_ipc.APPLY_OPTIONS,
                  *_ipc.CORRECT_OPTIONS, *_chain.CHAIN_OPTIONS, *_moments.MOMENTS_OPTIONS,
                  *_size.SIZE_OPTIONS, *_study.STUDY_OPTIONS, *_observation.OBSERVATION_OPTIONS,
-                 "kernel_negative", "kernel_normalise", "fits_overwrite"}
+                 *_scene.EXPOSURE_OPTIONS, *_scene.RENDER_OPTIONS, *_scene.TRUTH_OPTIONS,
+                 *_scene.MAKE_OPTIONS, "kernel_negative", "kernel_normalise"}
         self.assertEqual(taken, {*known, "zernikes", "opd", "progress"})
 
     def test_values(self):

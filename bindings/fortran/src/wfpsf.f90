@@ -60,6 +60,7 @@ module wfpsf
         procedure :: pupil => instrument_pupil
         procedure :: get_sky_level => instrument_get_sky_level
         procedure :: get_sky_background => instrument_get_sky_background
+        procedure :: get_ab_zero_rate => instrument_get_ab_zero_rate
         final :: instrument_finalize
     end type wfpsf_instrument
 
@@ -241,6 +242,52 @@ module wfpsf
         procedure :: apply => chain_apply
         final :: chain_finalize
     end type wfpsf_chain
+
+    ! The stars and small galaxies that a scene is made of. Their numbers and those of colours count
+    ! from 1 in the order of adding.
+    type, extends(handle) :: wfpsf_catalogue
+        real(real64), private :: origin = 0 ! of its positions, which the library counts from 0
+    contains
+        procedure :: create => catalogue_create
+        procedure :: destroy => catalogue_destroy
+        procedure :: add_colour => catalogue_add_colour
+        procedure :: add_stars => catalogue_add_stars
+        procedure :: add_galaxies => catalogue_add_galaxies
+        procedure :: size => catalogue_size
+        final :: catalogue_finalize
+    end type wfpsf_catalogue
+
+    ! What rendering a scene came to.
+    type, extends(handle) :: wfpsf_rendering
+    contains
+        procedure :: destroy => rendering_destroy
+        procedure :: get => rendering_get
+        final :: rendering_finalize
+    end type wfpsf_rendering
+
+    ! All sources of a catalogue on an image of a detector, within an error budget.
+    type, extends(handle) :: wfpsf_scene
+    contains
+        procedure :: create => scene_create
+        procedure :: destroy => scene_destroy
+        procedure :: get => scene_get
+        procedure :: get_group => scene_get_group
+        procedure :: groups_of => scene_groups_of
+        procedure :: text => scene_text
+        procedure :: render => scene_render
+        procedure :: truth => scene_truth
+        final :: scene_finalize
+    end type wfpsf_scene
+
+    ! The scenes of all detectors, with background and effects, each in a FITS file of its own.
+    type, extends(handle) :: wfpsf_exposure
+    contains
+        procedure :: create => exposure_create
+        procedure :: destroy => exposure_destroy
+        procedure :: path => exposure_path
+        procedure :: make => exposure_make
+        final :: exposure_finalize
+    end type wfpsf_exposure
 
     ! The result of a measurement.
     type, extends(handle) :: wfpsf_moments
@@ -1694,6 +1741,236 @@ module wfpsf
             integer, intent(out), optional :: stat
             character(len=*), intent(inout), optional :: errmsg
         end subroutine instrument_get_sky_background
+    end interface
+
+    ! Catalogues. The arrays of a call have one size; nothing is added by a call that fails.
+    private :: catalogue_create, catalogue_destroy, catalogue_add_colour, catalogue_add_stars
+    private :: catalogue_add_galaxies, catalogue_size, catalogue_finalize
+    private :: instrument_get_ab_zero_rate
+    interface
+        ! positions: wfpsf_positions_*: pixels of a detector, or RA and Dec in degrees; brightness:
+        ! wfpsf_brightness_*.
+        module subroutine catalogue_create(self, positions, brightness, stat, errmsg)
+            class(wfpsf_catalogue), intent(inout) :: self
+            integer, intent(in) :: positions, brightness
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine catalogue_create
+
+        module subroutine catalogue_destroy(self)
+            class(wfpsf_catalogue), intent(inout) :: self
+        end subroutine catalogue_destroy
+
+        ! A colour that sources may have: one wavelength, or the light of an SED seen through the
+        ! band; neither: the band's effective wavelength. A catalogue without any has that as its
+        ! first.
+        module subroutine catalogue_add_colour(self, wavelength_nm, sed, colour, stat, errmsg)
+            class(wfpsf_catalogue), intent(inout) :: self
+            real(real64), intent(in), optional :: wavelength_nm
+            type(wfpsf_sed), intent(in), optional :: sed
+            integer, intent(out), optional :: colour
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine catalogue_add_colour
+
+        ! colour: the number of each star's; absent: the first.
+        module subroutine catalogue_add_stars(self, x, y, brightness, colour, stat, errmsg)
+            class(wfpsf_catalogue), intent(inout) :: self
+            real(real64), intent(in), contiguous :: x(:), y(:), brightness(:)
+            integer, intent(in), optional :: colour(:)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine catalogue_add_stars
+
+        ! Sersic profiles. e1 and e2: (a - b) / (a + b) times cosine and sine of twice the angle of
+        ! the major axis from x towards y; absent: 0.
+        module subroutine catalogue_add_galaxies(self, x, y, brightness, sersic_index, &
+            half_light_radius_arcsec, e1, e2, colour, stat, errmsg)
+            class(wfpsf_catalogue), intent(inout) :: self
+            real(real64), intent(in), contiguous :: x(:), y(:), brightness(:), sersic_index(:), &
+                half_light_radius_arcsec(:)
+            real(real64), intent(in), optional :: e1(:), e2(:)
+            integer, intent(in), optional :: colour(:)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine catalogue_add_galaxies
+
+        ! How many sources there are.
+        module subroutine catalogue_size(self, count, stat, errmsg)
+            class(wfpsf_catalogue), intent(in) :: self
+            integer(int64), intent(inout) :: count
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine catalogue_size
+
+        impure elemental module subroutine catalogue_finalize(self)
+            type(wfpsf_catalogue), intent(inout) :: self
+        end subroutine catalogue_finalize
+
+        ! Electrons a second that a source of AB magnitude 0 gives in a band, e-/s.
+        module subroutine instrument_get_ab_zero_rate(self, band, rate, stat, errmsg)
+            class(wfpsf_instrument), intent(in) :: self
+            character(len=*), intent(in) :: band
+            real(real64), intent(inout) :: rate
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine instrument_get_ab_zero_rate
+    end interface
+
+    ! Scenes. Their groups count from 1.
+    private :: scene_create, scene_destroy, scene_get, scene_get_group, scene_groups_of, scene_text
+    private :: scene_render, scene_truth, scene_finalize
+    private :: rendering_destroy, rendering_get, rendering_finalize
+    interface
+        ! Plans a scene for images of the size and oversampling of this one; the centre of its first
+        ! native pixel stands at (x0, y0) of the detector. observation: for positions on the sky.
+        ! Options: scene_*, exposure_time, and those of the PSF but eps and psf_radius.
+        module subroutine scene_create(self, instrument, band, sca, catalogue, image, x0, y0, &
+            observation, options, stat, errmsg)
+            class(wfpsf_scene), intent(inout) :: self
+            type(wfpsf_instrument), intent(in) :: instrument
+            character(len=*), intent(in) :: band
+            integer, intent(in) :: sca
+            type(wfpsf_catalogue), intent(in) :: catalogue
+            type(wfpsf_image), intent(in) :: image
+            real(real64), intent(in) :: x0, y0
+            type(wfpsf_observation), intent(in), optional :: observation
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine scene_create
+
+        module subroutine scene_destroy(self)
+            class(wfpsf_scene), intent(inout) :: self
+        end subroutine scene_destroy
+
+        ! key: wfpsf_scene_*.
+        module subroutine scene_get(self, key, value, stat, errmsg)
+            class(wfpsf_scene), intent(in) :: self
+            integer, intent(in) :: key
+            real(real64), intent(inout) :: value
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine scene_get
+
+        ! key: wfpsf_scene_group_*.
+        module subroutine scene_get_group(self, group, key, value, stat, errmsg)
+            class(wfpsf_scene), intent(in) :: self
+            integer, intent(in) :: group, key
+            real(real64), intent(inout) :: value
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine scene_get_group
+
+        ! The group of each source of the catalogue; 0: it has no place.
+        module subroutine scene_groups_of(self, group, stat, errmsg)
+            class(wfpsf_scene), intent(in) :: self
+            integer(c_int32_t), intent(inout), contiguous :: group(:)
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine scene_groups_of
+
+        ! The plan, a line a group.
+        module subroutine scene_text(self, text, stat, errmsg)
+            class(wfpsf_scene), intent(in) :: self
+            character(len=:), allocatable, intent(out) :: text
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine scene_text
+
+        ! Adds all sources to the image, electrons. Options: threads, memory_limit, force, the
+        ! progress function.
+        module subroutine scene_render(self, image, rendering, options, stat, errmsg)
+            class(wfpsf_scene), intent(in) :: self
+            type(wfpsf_image), intent(inout) :: image
+            type(wfpsf_rendering), intent(inout), optional :: rendering
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine scene_render
+
+        ! What is true of some sources, by their numbers in the catalogue; absent: of the first n.
+        ! values(0:wfpsf_truth_columns - 1, n): its rows are wfpsf_truth_*. Without a kernel those
+        ! of IPC are NaN. Options: eps, moments_tolerance, threads.
+        module subroutine scene_truth(self, values, sources, kernel, options, stat, errmsg)
+            class(wfpsf_scene), intent(in) :: self
+            real(real64), intent(inout), contiguous :: values(0:, :)
+            integer(int64), intent(in), optional :: sources(:)
+            type(wfpsf_ipc_kernel), intent(in), optional :: kernel
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine scene_truth
+
+        impure elemental module subroutine scene_finalize(self)
+            type(wfpsf_scene), intent(inout) :: self
+        end subroutine scene_finalize
+
+        module subroutine rendering_destroy(self)
+            class(wfpsf_rendering), intent(inout) :: self
+        end subroutine rendering_destroy
+
+        ! key: wfpsf_rendering_*.
+        module subroutine rendering_get(self, key, value, stat, errmsg)
+            class(wfpsf_rendering), intent(in) :: self
+            integer, intent(in) :: key
+            real(real64), intent(inout) :: value
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine rendering_get
+
+        impure elemental module subroutine rendering_finalize(self)
+            type(wfpsf_rendering), intent(inout) :: self
+        end subroutine rendering_finalize
+    end interface
+
+    ! Exposures.
+    private :: exposure_create, exposure_destroy, exposure_path, exposure_make, exposure_finalize
+    interface
+        ! chain: what the detectors do, after the option scene_background is added; absent: nothing.
+        ! Options: those of scenes; seed, stream (the exposure's number), noise.
+        module subroutine exposure_create(self, instrument, observation, band, catalogue, chain, &
+            options, stat, errmsg)
+            class(wfpsf_exposure), intent(inout) :: self
+            type(wfpsf_instrument), intent(in) :: instrument
+            type(wfpsf_observation), intent(in) :: observation
+            character(len=*), intent(in) :: band
+            type(wfpsf_catalogue), intent(in) :: catalogue
+            type(wfpsf_chain), intent(in), optional :: chain
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine exposure_create
+
+        module subroutine exposure_destroy(self)
+            class(wfpsf_exposure), intent(inout) :: self
+        end subroutine exposure_destroy
+
+        ! The path of a detector's file.
+        module subroutine exposure_path(self, folder, sca, path, stat, errmsg)
+            class(wfpsf_exposure), intent(in) :: self
+            character(len=*), intent(in) :: folder
+            integer, intent(in) :: sca
+            character(len=:), allocatable, intent(out) :: path
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine exposure_path
+
+        ! Makes a detector's file. made: false: it was there, made of the same. Options:
+        ! fits_overwrite, threads, memory_limit, the progress function.
+        module subroutine exposure_make(self, sca, folder, made, options, stat, errmsg)
+            class(wfpsf_exposure), intent(in) :: self
+            integer, intent(in) :: sca
+            character(len=*), intent(in) :: folder
+            logical, intent(out), optional :: made
+            type(wfpsf_options), intent(in), optional :: options
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine exposure_make
+
+        impure elemental module subroutine exposure_finalize(self)
+            type(wfpsf_exposure), intent(inout) :: self
+        end subroutine exposure_finalize
     end interface
 
     ! Moments.

@@ -2094,7 +2094,7 @@ module wfpsf_c
             real(c_double), intent(in), optional :: x(*)
             real(c_double), intent(in), optional :: y(*)
             real(c_double), intent(in), optional :: brightness(*)
-            integer(c_int32_t), intent(in), optional :: colour
+            integer(c_int32_t), intent(in), optional :: colour(*)
             integer(c_int32_t) :: outcome
         end function wfpsf_catalogue_add_stars
 
@@ -2108,7 +2108,7 @@ module wfpsf_c
             real(c_double), intent(in), optional :: x(*)
             real(c_double), intent(in), optional :: y(*)
             real(c_double), intent(in), optional :: brightness(*)
-            integer(c_int32_t), intent(in), optional :: colour
+            integer(c_int32_t), intent(in), optional :: colour(*)
             real(c_double), intent(in), optional :: sersic_index(*)
             real(c_double), intent(in), optional :: half_light_radius_arcsec(*)
             real(c_double), intent(in), optional :: e1(*)
@@ -2185,7 +2185,7 @@ module wfpsf_c
             implicit none
             type(c_ptr), value :: scene
             integer(c_int64_t), value :: count
-            integer(c_int32_t), intent(inout), optional :: group
+            integer(c_int32_t), intent(inout), optional :: group(*)
             integer(c_int32_t) :: outcome
         end function wfpsf_scene_groups_of
 
@@ -2233,7 +2233,7 @@ module wfpsf_c
             implicit none
             type(c_ptr), value :: scene
             integer(c_int64_t), value :: count
-            integer(c_int64_t), intent(in), optional :: sources
+            integer(c_int64_t), intent(in), optional :: sources(*)
             type(c_ptr), value :: kernel
             type(c_ptr), value :: options
             real(c_double), intent(inout), optional :: values(*)

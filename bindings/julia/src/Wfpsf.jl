@@ -43,6 +43,9 @@ export WfpsfError, options,
     covariance,
     VaryingIPC, weakest,
     Chain, add!, steps, apply_chain!, add_noise!, sky_level, sky_background,
+    Catalogue, add_colour!, add_galaxies!, ab_zero_rate,
+    Scene, scene_groups, groups_of_sources, render!, scene_truth,
+    Exposure, exposure_path, make_exposure,
     Moments, adaptive_moments, unweighted_moments, weighted_moments, moment_sums,
     moments_covariance, moments_derivative, moments_influence,
     encircled_energy, ee_radius, ee_radius_derivative, radial_profile, profile_fwhm, fwhm
@@ -67,6 +70,7 @@ include("otf.jl")
 include("ipc.jl")
 include("varying_ipc.jl")
 include("chain.jl")
+include("scene.jl")
 include("moments.jl")
 include("size.jl")
 include("study.jl")

@@ -31,6 +31,15 @@ function created(call)
     return out[]
 end
 
+# The text that `call(capacity, buffer, length)` stores.
+function text_from(call)
+    length = Ref{Int64}()
+    check(call(0, C_NULL, length))
+    buffer = Vector{UInt8}(undef, length[] + 1)
+    check(call(length[] + 1, buffer, C_NULL))
+    return String(resize!(buffer, length[]))
+end
+
 function (::Type{H})(action::Function, arguments...; keywords...) where {H<:Handle}
     handle = H(arguments...; keywords...)
     try

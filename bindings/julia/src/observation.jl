@@ -157,11 +157,8 @@ end
 The WCS keywords of a detector's FITS image: a vector of cards of 80 characters.
 """
 function fits_header(observation::Observation, sca::Integer)
-    length = Ref{Int64}()
-    check(LibWfpsf.wfpsf_observation_fits_header(observation, sca, 0, C_NULL, length))
-    text = Vector{UInt8}(undef, length[] + 1)
-    check(LibWfpsf.wfpsf_observation_fits_header(observation, sca, length[] + 1, text, C_NULL))
-    return [String(text[i:i+79]) for i = 1:80:length[]]
+    text = text_from((to...) -> LibWfpsf.wfpsf_observation_fits_header(observation, sca, to...))
+    return [text[i:i+79] for i = 1:80:length(text)]
 end
 
 """

@@ -21,5 +21,5 @@ let tried = 0
         try_example(example)
         tried += 1
     end
-    @test tried >= 6
+    @test tried >= 8
 end

@@ -8,8 +8,9 @@ known = Dict(option.name => option for option in options())
 
 # Every option is taken by some function, and no function takes an unknown one.
 taken = (Wfpsf.PSF_OPTIONS..., Wfpsf.STAR_OPTIONS..., Wfpsf.MOMENTS_OPTIONS..., Wfpsf.SIZE_OPTIONS..., Wfpsf.CORRECT_OPTIONS...,
-         Wfpsf.CHAIN_OPTIONS..., Wfpsf.OBSERVATION_OPTIONS..., :kernel_negative,
-         :kernel_normalise, :ipc_fill, :fits_overwrite)
+         Wfpsf.CHAIN_OPTIONS..., Wfpsf.OBSERVATION_OPTIONS..., Wfpsf.EXPOSURE_OPTIONS...,
+         Wfpsf.RENDER_OPTIONS..., Wfpsf.TRUTH_OPTIONS..., Wfpsf.MAKE_OPTIONS..., :kernel_negative,
+         :kernel_normalise, :ipc_fill)
 @test issetequal(taken, (keys(known)..., :zernikes, :opd, :progress))
 
 instrument = Instrument()

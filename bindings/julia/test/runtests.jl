@@ -24,8 +24,8 @@ end
 @testset "Wfpsf" begin
     @testset "$subject" for subject in ("handle", "options", "instrument", "design", "image",
                                         "interleave", "observation", "sed", "psf", "colours", "varying_psf",
-                                        "otf", "ipc", "varying_ipc", "chain", "moments", "size",
-                                        "study", "doctests")
+                                        "otf", "ipc", "varying_ipc", "chain", "scene", "moments",
+                                        "size", "study", "doctests")
         include("$subject.jl")
     end
 end

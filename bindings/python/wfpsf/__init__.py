@@ -22,9 +22,9 @@ Objects that hold memory of the library free it when they are collected, at ``cl
 end of a ``with`` block.
 
 During every call other Python threads run (ctypes lets go of the interpreter's lock). Instruments,
-PSFs, OTFs, SEDs, kernels, varying PSFs and IPC, and studies are immutable and may be shared by
-threads; an image, a design or a chain that is being added to belongs to one thread at a time, and
-nothing may be closed while it is in use.
+PSFs, OTFs, SEDs, kernels, varying PSFs and IPC, scenes, exposures and studies are immutable and may
+be shared by threads; an image, a design, or a chain or catalogue that is being added to belongs to
+one thread at a time, and nothing may be closed while it is in use.
 
 The environment variable ``WFPSF_LIBRARY`` names the shared library when the package is imported;
 without it, it is the one of the tree that the package was installed in, or else the one that the
@@ -45,6 +45,7 @@ from ._observation import Observation, julian_date, sun_position
 from ._options import options
 from ._otf import OTF
 from ._psf import PSF, psfs
+from ._scene import Catalogue, Exposure, Rendering, Scene
 from ._sed import SED
 from ._size import (ee_radius, ee_radius_derivative, encircled_energy, fwhm, profile_fwhm,
                     radial_profile)
@@ -56,11 +57,11 @@ check(library.wfpsf_abi_check(constants.WFPSF_ABI_NUMBER))
 
 __version__ = library.wfpsf_version().decode()  # of the loaded library
 
-__all__ = ["OTF", "PSF", "SED", "Chain", "Design", "IPCKernel", "Image", "Instrument", "Moments",
-           "Observation",
-           "Study", "VaryingIPC", "VaryingPSF", "WfpsfError", "WfpsfWarning", "adaptive_moments",
-           "add_noise", "constants", "deinterleave", "ee_radius", "ee_radius_derivative",
-           "encircled_energy", "fwhm", "interleave", "julian_date", "library", "moment_sums", "moments_covariance",
+__all__ = ["OTF", "PSF", "SED", "Catalogue", "Chain", "Design", "Exposure", "IPCKernel", "Image",
+           "Instrument", "Moments", "Observation", "Rendering", "Scene", "Study", "VaryingIPC",
+           "VaryingPSF", "WfpsfError", "WfpsfWarning", "adaptive_moments", "add_noise", "constants",
+           "deinterleave", "ee_radius", "ee_radius_derivative", "encircled_energy", "fwhm",
+           "interleave", "julian_date", "library", "moment_sums", "moments_covariance",
            "moments_derivative", "moments_influence", "options", "profile_fwhm", "psfs",
-           "radial_profile", "read_fits", "status_name", "sun_position", "unweighted_moments", "weighted_moments",
-           "wfc3_deviations", "write_fits", "zeros"]
+           "radial_profile", "read_fits", "status_name", "sun_position", "unweighted_moments",
+           "weighted_moments", "wfc3_deviations", "write_fits", "zeros"]

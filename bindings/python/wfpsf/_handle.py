@@ -86,6 +86,15 @@ def get(function, handle, key):
     return value.value
 
 
+def text_from(call):
+    """The text that ``call(capacity, buffer, length)`` stores."""
+    length = ctypes.c_int64()
+    check(call(0, None, length))
+    buffer = ctypes.create_string_buffer(length.value + 1)
+    check(call(len(buffer), buffer, None))
+    return buffer.value.decode()
+
+
 class Properties:
     """Mixin: numbers that the library knows of an object, as attributes."""
 

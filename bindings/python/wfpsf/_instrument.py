@@ -139,3 +139,9 @@ class Instrument(Handle):
         check(lib.wfpsf_sky_background(self, text("band", band), longitude, latitude,
                                        exposure_time, pixel_area, electrons))
         return electrons.value
+
+    def ab_zero_rate(self, band):
+        """Electrons a second that a source of AB magnitude 0 gives in a band, e-/s."""
+        rate = ctypes.c_double()
+        check(lib.wfpsf_instrument_ab_zero_rate(self, text("band", band), rate))
+        return rate.value

@@ -47,6 +47,18 @@ def numbers(argument, values, dimensions=1):
     return array
 
 
+def integers(argument, values, bits=64):
+    """A contiguous array of integers that fit; NumPy would cut them without a word."""
+    array = np.asarray(values)
+    if array.ndim != 1:
+        raise ValueError("%s has %d dimensions: must have 1" % (argument, array.ndim))
+    if array.size and array.dtype.kind not in "iu":
+        raise TypeError("%s must be integers, not %s" % (argument, array.dtype))
+    for value in (array.min(), array.max()) if array.size else ():
+        integer(argument, value, bits)
+    return np.ascontiguousarray(array, dtype="int%d" % bits)
+
+
 def address(array):
     return None if array is None else array.ctypes.data
 

@@ -6,7 +6,7 @@ import ctypes
 import numpy as np
 
 from . import _lib
-from ._handle import Handle
+from ._handle import Handle, text_from
 from ._library import lib
 from ._names import constants_of, integer
 from ._options import chosen
@@ -117,11 +117,8 @@ class Observation(Handle):
 
     def fits_header(self, sca):
         """The WCS keywords of a detector's FITS image: a list of cards of 80 characters."""
-        length, sca = ctypes.c_int64(), integer("sca", sca, 32)
-        check(lib.wfpsf_observation_fits_header(self, sca, 0, None, length))
-        buffer = ctypes.create_string_buffer(length.value + 1)
-        check(lib.wfpsf_observation_fits_header(self, sca, len(buffer), buffer, None))
-        text = buffer.value.decode()
+        sca = integer("sca", sca, 32)
+        text = text_from(lambda *to: lib.wfpsf_observation_fits_header(self, sca, *to))
         return [text[i:i + 80] for i in range(0, len(text), 80)]
 
 

@@ -139,7 +139,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_scene_get_group(const wfpsf_scene *scene, int64_
  * Which source got what: the group of each.
  *
  * Given:    count   of sources of the catalogue
- * Returned: group   count numbers in the catalogue's order, from 0; -1: it has no place
+ * Returned: group   count integers in the catalogue's order, from 0; -1: it has no place
  * Status:   ERROR_NULL, ERROR_SIZE (another count than the catalogue's)
  */
 WFPSF_EXPORT wfpsf_status wfpsf_scene_groups_of(const wfpsf_scene *scene, int64_t count,
