@@ -2,6 +2,7 @@
 #include "scene/render.hpp"
 
 #include "numerics/bands.hpp"
+#include "scene/faint_light.hpp"
 #include "scene/far_table.hpp"
 #include "scene/galaxy.hpp"
 
@@ -90,24 +91,24 @@ template <class T> class Renderer {
         report_.models_s = clock.seconds();
     }
 
-    // As few fields as leave out no more than was planned.
+    // As little of the fields as leaves out no more than was planned.
     void find_details() {
         std::vector<PixelError> errors;
         for (const PlannedGroup &planned : plan_.groups()) {
             const Way &way = planned.way;
             const double peak = plan_.colour(planned.group.colour).profile.peak();
-            size_t rank = 0;
+            std::vector<double> &radii = field_radii_.emplace_back();
             double of_psf = way.eps * peak;
             if (way.drawing == Drawing::shared) {
                 const VaryingPsf &model = *models_[static_cast<size_t>(planned.group.colour)];
-                rank = 1;
-                while (rank < model.rank() && model.left_out(rank) > way.left_out)
-                    ++rank;
+                radii = model.field_radii(way.radius, way.left_out);
                 of_psf = model.error_estimate() * peak;
             }
-            details_.push_back({way.radius, rank});
-            errors.push_back({std::max(planned.error.local, planned.group.densest * of_psf),
-                              planned.error.mean});
+            errors.push_back(
+                {std::max(planned.error.local,
+                          in_noise_of_star(planned.group, plan_.colour(planned.group.colour),
+                                           plan_.budget(), of_psf)),
+                 planned.error.mean});
         }
         report_.error = together(errors);
     }
@@ -138,7 +139,29 @@ template <class T> class Renderer {
                 if (models_[colour])
                     draw_shared(part, static_cast<int32_t>(colour));
         }
+        draw_faint_light();
         report_.shared_s = clock.seconds();
+    }
+
+    void draw_faint_light() {
+        std::vector<std::vector<const PlacedSource *>> of_group(plan_.groups().size());
+        for (const PlacedSource &source : plan_.sources()) {
+            const size_t g = plan_.group_index(source);
+            const PlannedGroup &planned = plan_.groups()[g];
+            if (planned.way.is_smooth_beyond() && planned.way.radius < planned.group.reach)
+                of_group[g].push_back(&source);
+        }
+        FaintLight light(plan_.image());
+        for (size_t g = 0; g < of_group.size(); ++g) {
+            for (const PlacedSource *source : of_group[g])
+                light.add(*source);
+            const PlannedGroup &planned = plan_.groups()[g];
+            if (!of_group[g].empty())
+                light.spread(plan_.colour(planned.group.colour).profile, planned.way.radius);
+        }
+        on_rows(0, static_cast<double>(image_.ny), [&](int64_t first_row, int64_t last_row) {
+            light.add_to(image_, first_row, last_row);
+        });
     }
 
     void draw_shared(std::span<const PlacedSource> sources, int32_t colour) {
@@ -158,7 +181,7 @@ template <class T> class Renderer {
             if (!frame_.reaches(star, reach))
                 continue;
             stars.push_back(star);
-            details.push_back(details_[group]);
+            details.push_back({way.radius, field_radii_[group]});
             far.push_back(way.far);
             const double samples = reach * static_cast<double>(plan_.image().oversampling);
             low = std::min(low, star.y - samples);
@@ -318,7 +341,7 @@ template <class T> class Renderer {
     std::vector<std::unique_ptr<VaryingPsf>> models_;
     std::vector<std::optional<FarLight>> far_;
     std::vector<std::optional<FarTable>> tables_;
-    std::vector<StarDetail> details_; // by group
+    std::vector<std::vector<double>> field_radii_; // by group
     RenderReport report_;
 };
 
