@@ -58,20 +58,12 @@ WFPSF_VECTORISED void add_scaled(double weight, const double *__restrict values,
 struct Window {
     int64_t begin, end;
 };
-Window reach_of(const Field &field, double radius) {
+Window reach_of(const Field &field, double radius, int64_t margin = 0) {
     const auto half =
         static_cast<int64_t>(std::ceil(radius * static_cast<double>(field.per_pixel))) +
-        field.interpolator.half_width() + 1;
+        field.interpolator.half_width() + margin;
     const int64_t size = field.value.nx();
     return {std::max<int64_t>(size / 2 - half, 0), std::min(size / 2 + half + 1, size)};
-}
-
-double largest_difference(const Plane<double> &a, const Plane<double> &b) {
-    double most = 0;
-    for (int64_t y = 0; y < a.ny(); ++y)
-        for (int64_t x = 0; x < a.nx(); ++x)
-            most = std::max(most, std::abs(a(x, y) - b(x, y)));
-    return most;
 }
 
 PsfSettings exact_settings(PsfSettings settings, bool varies) {
@@ -98,24 +90,26 @@ VaryingPsf::VaryingPsf(OpticsAt optics, bool varies, Light light, const PsfSetti
     }
     std::vector<Plane<double>> light_at_nodes;
     double done = 0.1; // at each level half of what was left
+    double radius = settings_.radius;
     for (degree_ = 2;; degree_ *= 2) {
         manners.require_memory(2 * (degree_ + 1) * (degree_ + 1) * plain_.value.nx() *
                                    plain_.value.ny() * static_cast<int64_t>(sizeof(double)),
                                "a PSF that varies so much");
         const double next = (1 + done) / 2;
-        light_at_nodes = refined(std::move(light_at_nodes), manners.progress.between(done, next));
+        light_at_nodes =
+            refined(std::move(light_at_nodes), radius, manners.progress.between(done, next));
         done = next;
-        expand(light_at_nodes);
-        interpolation_error_ = measured_error();
-        if (interpolation_error_ <= share_of_places * settings_.eps || degree_ == largest_degree)
+        expand(light_at_nodes, radius);
+        radius = measure(radius);
+        if (radius == 0 || degree_ == largest_degree)
             break;
     }
     error_ += interpolation_error_;
 }
 
-Field VaryingPsf::exact(double u, double v) {
+Field VaryingPsf::exact(double u, double v, double radius) {
     const auto [x, y] = place(u, v);
-    Field field = make_field_like(plain_, optics_(x, y), settings_, settings_.radius);
+    Field field = make_field_like(plain_, optics_(x, y), settings_, radius);
     ++exact_psfs_;
     error_ = std::max(error_, field.error);
     return field;
@@ -126,7 +120,7 @@ VaryingPsf::Place VaryingPsf::place(double u, double v) const {
             std::lerp(region_.y0, region_.y1, (1 + v) / 2)};
 }
 
-std::vector<Plane<double>> VaryingPsf::refined(std::vector<Plane<double>> coarse,
+std::vector<Plane<double>> VaryingPsf::refined(std::vector<Plane<double>> coarse, double radius,
                                                const Progress &progress) {
     const int n = degree_ + 1, coarse_n = degree_ / 2 + 1;
     std::vector<Plane<double>> fine(static_cast<size_t>(n * n));
@@ -137,38 +131,53 @@ std::vector<Plane<double>> VaryingPsf::refined(std::vector<Plane<double>> coarse
             if (!coarse.empty() && i % 2 == 0 && j % 2 == 0)
                 here = std::move(coarse[static_cast<size_t>(j / 2 * coarse_n + i / 2)]);
             else
-                here = exact(node(i, degree_), node(j, degree_)).value;
+                here = exact(node(i, degree_), node(j, degree_), radius).value;
         }
     return fine;
 }
 
-// A row of all nodes at a time, along one axis of the detector and then the other.
-void VaryingPsf::expand(const std::vector<Plane<double>> &nodes) {
+// A row of all nodes at a time, along one axis of the detector and then the other. Farther from the
+// star coefficients stay what they were.
+void VaryingPsf::expand(const std::vector<Plane<double>> &nodes, double radius) {
     const int n = degree_ + 1;
-    const int64_t nx = plain_.value.nx(), ny = plain_.value.ny();
+    const int64_t size = plain_.value.nx();
     const std::vector<std::vector<double>> matrix = to_coefficients(degree_);
-    mode_.clear();
+    const auto [begin, end] = reach_of(plain_, radius);
+    const int64_t count = end - begin;
+    std::vector<Mode> coarse = std::exchange(mode_, {});
     for (int j = 0; j < n; ++j)
-        for (int i = 0; i + j < n; ++i)
-            mode_.push_back({i, j, 0, Plane<double>(nx, ny)});
-    Plane<double> along_x(nx, n);
-    for (int64_t y = 0; y < ny; ++y)
+        for (int i = 0; i + j < n; ++i) {
+            const auto before = std::ranges::find_if(
+                coarse, [i, j](const Mode &mode) { return mode.i == i && mode.j == j; });
+            mode_.push_back(
+                {i, j, 0,
+                 before == coarse.end() ? Plane<double>(size, size) : std::move(before->light)});
+        }
+    Plane<double> along_x(count, n);
+    for (int64_t y = begin; y < end; ++y) {
+        for (Mode &mode : mode_)
+            std::fill_n(mode.light.view().row(y) + begin, count, 0.0);
         for (int i = 0; i < n; ++i) {
-            std::fill_n(along_x.view().data, along_x.nx() * along_x.ny(), 0.0);
+            std::fill_n(along_x.view().data, count * n, 0.0);
             for (int row = 0; row < n; ++row)
-                for (int column = 0; column < n; ++column)
+                for (int column = 0; column < n; ++column) {
+                    const Plane<double> &light = nodes[static_cast<size_t>(row * n + column)];
+                    const int64_t edge = (size - light.nx()) / 2; // that it lacks
                     add_scaled(matrix[static_cast<size_t>(i)][static_cast<size_t>(column)],
-                               nodes[static_cast<size_t>(row * n + column)].view().row(y), nx,
+                               light.view().row(y - edge) + begin - edge, count,
                                along_x.view().row(row));
+                }
             for (Mode &mode : mode_)
                 if (mode.i == i)
                     for (int row = 0; row < n; ++row)
                         add_scaled(matrix[static_cast<size_t>(mode.j)][static_cast<size_t>(row)],
-                                   along_x.view().row(row), nx, mode.light.view().row(y));
+                                   along_x.view().row(row), count,
+                                   mode.light.view().row(y) + begin);
         }
+    }
     for (Mode &mode : mode_)
-        for (int64_t y = 0; y < ny; ++y)
-            for (int64_t x = 0; x < nx; ++x)
+        for (int64_t y = 0; y < size; ++y)
+            for (int64_t x = 0; x < size; ++x)
                 mode.largest = std::max(mode.largest, std::abs(mode.light(x, y)));
     std::ranges::stable_sort(mode_, std::ranges::greater(), &Mode::largest);
     double left_out = 0;
@@ -215,19 +224,40 @@ std::vector<double> VaryingPsf::field_radii(double radius, double left_out) cons
 }
 
 // Between the nodes, where polynomials err most: near the corners and the edges, and inside.
-double VaryingPsf::measured_error() {
+double VaryingPsf::measure(double radius) {
     constexpr double safety = 1.5; // for all places that are not looked at
     const double outer = std::cos(pi / (2 * degree_)), inner = std::sin(pi / (2 * degree_));
-    double worst = 0;
+    std::vector<double> by_ring(static_cast<size_t>(std::ceil(settings_.radius)) + 2);
     for (const auto &[u, v] :
          {std::pair(outer, outer), std::pair(-outer, outer), std::pair(outer, -outer),
           std::pair(-outer, -inner), std::pair(inner, outer), std::pair(inner, -inner)}) {
-        const Field truth = exact(u, v);
+        const Field truth = exact(u, v, radius);
         const auto [x, y] = place(u, v);
-        const Field light = sum_at(x, y);
-        worst = std::max(worst, largest_difference(light.value, truth.value) / truth.faintest_peak);
+        const Field sum = sum_at(x, y);
+        const auto [begin, end] = reach_of(plain_, radius);
+        const int64_t edge = (sum.value.nx() - truth.value.nx()) / 2, centre = sum.value.nx() / 2;
+        for (int64_t j = begin; j < end; ++j)
+            for (int64_t i = begin; i < end; ++i) {
+                const int64_t off = std::max(std::abs(i - centre), std::abs(j - centre));
+                double &most =
+                    by_ring[std::min(static_cast<size_t>(off / sum.per_pixel), by_ring.size() - 1)];
+                most = std::max(
+                    most, safety * std::abs(sum.value(i, j) - truth.value(i - edge, j - edge)) /
+                              truth.faintest_peak);
+            }
     }
-    return safety * worst;
+    const double allowed = share_of_places * settings_.eps;
+    size_t wrong = by_ring.size(); // rings within
+    while (wrong > 0 && by_ring[wrong - 1] <= allowed)
+        --wrong;
+    const double worst_there = *std::ranges::max_element(by_ring);
+    const double worst_beyond =
+        wrong < by_ring.size()
+            ? *std::max_element(by_ring.begin() + static_cast<std::ptrdiff_t>(wrong), by_ring.end())
+            : 0;
+    interpolation_error_ = std::max(error_beyond_, worst_there);
+    error_beyond_ = std::max(error_beyond_, worst_beyond);
+    return std::min(radius, static_cast<double>(wrong));
 }
 
 void VaryingPsf::weights(double x, double y, std::span<double> out) const {
@@ -320,8 +350,8 @@ void VaryingPsf::add_rows(std::span<const Star> stars, DetailOf detail_of, doubl
             weights(x0 + native(stars[i].x), y0 + native(stars[i].y), first);
             windows.clear();
             for (const double radius : detail.field_radii)
-                windows.push_back(reach_of(field, radius));
-            const auto [begin, end] = reach_of(field, detail.radius);
+                windows.push_back(reach_of(field, radius, 1));
+            const auto [begin, end] = reach_of(field, detail.radius, 1);
             for (int64_t y = begin; y < end; ++y) {
                 double *const row = field.value.view().row(y);
                 std::fill(row + begin, row + end, 0.0);

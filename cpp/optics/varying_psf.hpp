@@ -72,12 +72,16 @@ class VaryingPsf {
     };
     Place place(double u, double v) const; // of u, v in [-1, 1]
     bool is_inside(double x, double y) const;
-    Field exact(double u, double v);
+    Field exact(double u, double v, double radius);
     // The light at the nodes of the present degree, by rows; `coarse`: that of half the degree.
-    std::vector<Plane<double>> refined(std::vector<Plane<double>> coarse, const Progress &progress);
-    void expand(const std::vector<Plane<double>> &nodes);
+    // Nodes that are new reach `radius` native pixels.
+    std::vector<Plane<double>> refined(std::vector<Plane<double>> coarse, double radius,
+                                       const Progress &progress);
+    void expand(const std::vector<Plane<double>> &nodes, double radius);
     void find_left_out();
-    double measured_error();
+    // The radius within which the present degree errs by too much. Far from the core PSFs vary by
+    // less, and a low degree will do.
+    double measure(double radius);
     // Of the first modes, as many as there is room for.
     void weights(double x, double y, std::span<double> out) const;
     Field sum_at(double x, double y) const;
@@ -92,7 +96,8 @@ class VaryingPsf {
     int degree_ = 0;
     int64_t exact_psfs_ = 0;
     double error_ = 0, interpolation_error_ = 0;
-    Field plain_; // what the fields of all places have in common
+    double error_beyond_ = 0; // of the interpolation, where no higher degree is needed
+    Field plain_;             // what the fields of all places have in common
     // Coefficients of T_i(x) T_j(y), the largest first.
     struct Mode {
         int i, j;

@@ -15,9 +15,10 @@ inline double digits(double eps) {
 
 // A PSF that reaches `radius` native pixels, of light of a relative bandwidth (0: one colour).
 inline double psf(double radius, double eps, double bandwidth) {
+    if (bandwidth > 0)
+        return digits(eps) * (1.5e-3 + 1.6e-5 * radius * radius);
     const double per_area = radius <= 64 ? 2.7e-6 : 8.5e-6;
-    const double wavelengths = bandwidth == 0 ? 1 : 8 + 2 * digits(eps);
-    return wavelengths * (0.7e-3 + per_area * radius * radius);
+    return 0.7e-3 + per_area * radius * radius;
 }
 
 // A stamp of `pixels` pixels straight from the diffraction image, beyond the radius made in advance.
@@ -30,8 +31,11 @@ inline double large_stamp(double pixels, double radius, double bandwidth) {
 inline double shared_psf(double radius, double eps, double bandwidth, bool varies) {
     if (!varies)
         return psf(radius, eps, bandwidth);
+    // Far from the core few places are enough.
     const double exact = eps >= 2e-5 ? 38 : eps >= 1e-8 ? 100 : 300;
-    return exact * 0.7 * psf(radius, eps, bandwidth);
+    constexpr double far = 16, core = 16;
+    return 0.7 * (far * psf(radius, eps, bandwidth) +
+                  (exact - far) * psf(std::min(radius, core), eps, bandwidth));
 }
 
 // Samples of a field that stamps of a radius are drawn from.

@@ -52,8 +52,7 @@ template <class T> class Renderer {
     Renderer(const SceneOptics &optics, const ScenePlan &plan, View<T> image, int threads,
              const Manners &manners)
         : optics_(optics), plan_(plan), image_(image), frame_(plan.image()), threads_(threads),
-          manners_(manners), models_(plan.models().size()), far_(models_.size()),
-          tables_(models_.size()) {}
+          manners_(manners), models_(plan.models().size()), tables_(models_.size()) {}
 
     RenderReport run() {
         make_models();
@@ -77,16 +76,13 @@ template <class T> class Renderer {
                     Manners{manners_.progress.between(0, 0.2), manners_.memory_limit});
                 report_.exact_psfs += models_[colour]->exact_psfs();
             }
-            bool far = false, table = false;
-            for (const PlannedGroup &planned : plan_.groups())
-                if (planned.group.colour == static_cast<int32_t>(colour) && planned.way.far > 0) {
-                    far = true;
-                    table = table || planned.way.drawing == Drawing::shared;
-                }
-            if (far)
-                far_[colour] = far_light_of(optics_.middle(), light, settings(1e-4, 32));
+            const bool table = std::ranges::any_of(plan_.groups(), [&](const PlannedGroup &g) {
+                return g.group.colour == static_cast<int32_t>(colour) && g.way.far > 0 &&
+                       g.way.drawing == Drawing::shared;
+            });
             if (table)
-                tables_[colour].emplace(*far_[colour], Way::largest_table);
+                tables_[colour].emplace(*far_light_of(optics_.middle(), light, far_settings()),
+                                        Way::largest_table);
         }
         report_.models_s = clock.seconds();
     }
@@ -304,8 +300,9 @@ template <class T> class Renderer {
         const int64_t n = plan_.image().oversampling;
         const Star star = frame_.star(source);
         if (way.far > 0)
-            far_[static_cast<size_t>(source.colour)]->add(
-                star, way.radius, way.far * std::abs(star.flux), image_, threads_);
+            far_light_of(optics_.nearest(source.x, source.y),
+                         optics_.lights[static_cast<size_t>(source.colour)], far_settings())
+                ->add(star, way.radius, way.far * std::abs(star.flux), image_, threads_);
         if (way.radius <= Way::largest_field) {
             psf.add(std::span(&star, 1), n, image_, threads_);
             return;
@@ -324,6 +321,7 @@ template <class T> class Renderer {
                  part, Psf::Drawing::adds, manners_);
     }
 
+    PsfSettings far_settings() const { return settings(1e-4, 32); }
     PsfSettings settings(double eps, double radius) const {
         PsfSettings settings = optics_.settings;
         settings.eps = eps;
@@ -339,7 +337,6 @@ template <class T> class Renderer {
     const Manners &manners_;
     // By colour.
     std::vector<std::unique_ptr<VaryingPsf>> models_;
-    std::vector<std::optional<FarLight>> far_;
     std::vector<std::optional<FarTable>> tables_;
     std::vector<std::vector<double>> field_radii_; // by group
     RenderReport report_;

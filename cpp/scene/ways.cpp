@@ -89,8 +89,9 @@ void Ways::with_and_without_far(const Way &way, double time_s, double psf_error,
         return;
     const FarReach &far = *colour_.far;
     const bool own = way.drawing == Drawing::own;
-    const double off = far.error(way.radius, group_.brightest, budget_.variance) +
-                       colour_.far_varies * colour_.profile.brightest_beyond(way.radius);
+    const double varies =
+        own ? 0 : colour_.far_varies * colour_.profile.brightest_beyond(way.radius);
+    const double off = far.error(way.radius, group_.brightest, budget_.variance) + varies;
     for (const FarReach::Step &step : far.steps()) {
         // A table ends somewhere; drawn by itself, far light goes on.
         const double end =
@@ -103,7 +104,8 @@ void Ways::with_and_without_far(const Way &way, double time_s, double psf_error,
             continue;
         Way with = way;
         with.far = step.floor;
-        const double time = own ? cost::far_light(pixels(end)) : cost::far_blocks(step.pixels);
+        const double time = own ? cost::making_far_light + cost::far_light(pixels(end))
+                                : cost::far_blocks(step.pixels);
         take(
             {with,
              time_s + count() * time,
