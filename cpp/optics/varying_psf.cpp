@@ -11,8 +11,6 @@
 #include <numbers>
 #include <utility>
 
-#include <Eigen/Dense>
-
 namespace wfpsf {
 
 namespace {
@@ -28,66 +26,44 @@ double node(int k, int degree) {
     return degree == 0 ? 0 : std::cos(pi * k / degree);
 }
 
-// The values at u of the polynomials that are one at one node and zero at the others (Berrut &
-// Trefethen 2004, SIAM Review 46, 501).
-std::array<double, largest_degree + 1> lagrange(double u, int degree) {
-    std::array<double, largest_degree + 1> values{};
-    double sum = 0;
-    for (int k = 0; k <= degree; ++k) {
-        const double distance = u - node(k, degree);
-        if (distance == 0) {
-            values.fill(0);
-            values[static_cast<size_t>(k)] = 1;
-            return values;
-        }
-        const double weight = (k % 2 ? -1 : 1) * (k == 0 || k == degree ? 0.5 : 1.0) / distance;
-        values[static_cast<size_t>(k)] = weight;
-        sum += weight;
+// Chebyshev's polynomials at u.
+std::array<double, largest_degree + 1> chebyshev(double u, int degree) {
+    std::array<double, largest_degree + 1> values{1, u};
+    for (int k = 2; k <= degree; ++k) {
+        const auto at = static_cast<size_t>(k);
+        values[at] = 2 * u * values[at - 1] - values[at - 2];
     }
-    for (double &value : values)
-        value /= sum;
     return values;
 }
 
-// The sum of the first planes on a window, x0 <= x < x1 and the same of y.
-struct Window {
-    int64_t x0, y0, x1, y1;
-};
-WFPSF_VECTORISED void sum_planes(const std::vector<Plane<double>> &planes,
-                                 std::span<const double> weights, const Window &window,
-                                 View<double> out) {
-    for (int64_t y = window.y0; y < window.y1; ++y) {
-        double *const row = out.row(y);
-        std::fill(row + window.x0, row + window.x1, 0.0);
-        for (size_t p = 0; p < weights.size(); ++p) {
-            const double *const from = planes[p].view().row(y);
-            for (int64_t x = window.x0; x < window.x1; ++x)
-                row[x] += weights[p] * from[x];
-        }
+// From values at the nodes to the coefficients of Chebyshev's polynomials: [coefficient][node].
+std::vector<std::vector<double>> to_coefficients(int degree) {
+    const auto ends = [degree](int k) { return k == 0 || k == degree ? 0.5 : 1.0; };
+    std::vector<std::vector<double>> matrix;
+    for (int k = 0; k <= degree; ++k) {
+        std::vector<double> &row = matrix.emplace_back();
+        for (int j = 0; j <= degree; ++j)
+            row.push_back(2.0 / degree * ends(k) * ends(j) * std::cos(pi * j * k / degree));
     }
+    return matrix;
 }
 
-Window all_of(View<const double> plane) {
-    return {0, 0, plane.nx, plane.ny};
+WFPSF_VECTORISED void add_scaled(double weight, const double *__restrict values, int64_t count,
+                                 double *__restrict sums) {
+    for (int64_t i = 0; i < count; ++i)
+        sums[i] += weight * values[i];
 }
 
-// What of a field stamps of that radius are drawn from.
-Window reach_of(const Field &field, double radius) {
+// What of a field stamps of that radius are drawn from: rows and columns begin <= i < end.
+struct Window {
+    int64_t begin, end;
+};
+Window reach_of(const Field &field, double radius, int64_t margin = 0) {
     const auto half =
         static_cast<int64_t>(std::ceil(radius * static_cast<double>(field.per_pixel))) +
-        field.interpolator.half_width() + 1;
-    const auto begin = [half](int64_t size) { return std::max<int64_t>(size / 2 - half, 0); };
-    const auto end = [half](int64_t size) { return std::min(size / 2 + half + 1, size); };
-    const View<const double> all = field.value.view();
-    return {begin(all.nx), begin(all.ny), end(all.nx), end(all.ny)};
-}
-
-double largest_difference(const Plane<double> &a, const Plane<double> &b) {
-    double most = 0;
-    for (int64_t y = 0; y < a.ny(); ++y)
-        for (int64_t x = 0; x < a.nx(); ++x)
-            most = std::max(most, std::abs(a(x, y) - b(x, y)));
-    return most;
+        field.interpolator.half_width() + margin;
+    const int64_t size = field.value.nx();
+    return {std::max<int64_t>(size / 2 - half, 0), std::min(size / 2 + half + 1, size)};
 }
 
 PsfSettings exact_settings(PsfSettings settings, bool varies) {
@@ -108,31 +84,32 @@ VaryingPsf::VaryingPsf(OpticsAt optics, bool varies, Light light, const PsfSetti
     exact_psfs_ = 1;
     error_ = plain_.error;
     if (!varies) {
-        mode_.push_back(plain_.value);
-        share_ = {{1}};
-        left_out_ = {plain_.peak, 0};
+        mode_.push_back({0, 0, plain_.peak, plain_.value});
+        find_left_out();
         return;
     }
     std::vector<Plane<double>> light_at_nodes;
     double done = 0.1; // at each level half of what was left
+    double radius = settings_.radius;
     for (degree_ = 2;; degree_ *= 2) {
         manners.require_memory(2 * (degree_ + 1) * (degree_ + 1) * plain_.value.nx() *
                                    plain_.value.ny() * static_cast<int64_t>(sizeof(double)),
                                "a PSF that varies so much");
         const double next = (1 + done) / 2;
-        light_at_nodes = refined(std::move(light_at_nodes), manners.progress.between(done, next));
+        light_at_nodes =
+            refined(std::move(light_at_nodes), radius, manners.progress.between(done, next));
         done = next;
-        compress(light_at_nodes);
-        interpolation_error_ = measured_error();
-        if (interpolation_error_ <= share_of_places * settings_.eps || degree_ == largest_degree)
+        expand(light_at_nodes, radius);
+        radius = measure(radius);
+        if (radius == 0 || degree_ == largest_degree)
             break;
     }
     error_ += interpolation_error_;
 }
 
-Field VaryingPsf::exact(double u, double v) {
+Field VaryingPsf::exact(double u, double v, double radius) {
     const auto [x, y] = place(u, v);
-    Field field = make_field_like(plain_, optics_(x, y), settings_, settings_.radius);
+    Field field = make_field_like(plain_, optics_(x, y), settings_, radius);
     ++exact_psfs_;
     error_ = std::max(error_, field.error);
     return field;
@@ -143,7 +120,7 @@ VaryingPsf::Place VaryingPsf::place(double u, double v) const {
             std::lerp(region_.y0, region_.y1, (1 + v) / 2)};
 }
 
-std::vector<Plane<double>> VaryingPsf::refined(std::vector<Plane<double>> coarse,
+std::vector<Plane<double>> VaryingPsf::refined(std::vector<Plane<double>> coarse, double radius,
                                                const Progress &progress) {
     const int n = degree_ + 1, coarse_n = degree_ / 2 + 1;
     std::vector<Plane<double>> fine(static_cast<size_t>(n * n));
@@ -154,83 +131,156 @@ std::vector<Plane<double>> VaryingPsf::refined(std::vector<Plane<double>> coarse
             if (!coarse.empty() && i % 2 == 0 && j % 2 == 0)
                 here = std::move(coarse[static_cast<size_t>(j / 2 * coarse_n + i / 2)]);
             else
-                here = exact(node(i, degree_), node(j, degree_)).value;
+                here = exact(node(i, degree_), node(j, degree_), radius).value;
         }
     return fine;
 }
 
-// The fields at all nodes as sums of as few as will do: their singular vectors.
-void VaryingPsf::compress(const std::vector<Plane<double>> &nodes) {
-    const int64_t nx = plain_.value.nx(), ny = plain_.value.ny();
-    const auto count = static_cast<Eigen::Index>(nodes.size());
-    Eigen::MatrixXd fields(nx * ny, count);
-    for (Eigen::Index i = 0; i < count; ++i)
-        for (int64_t y = 0; y < ny; ++y)
-            for (int64_t x = 0; x < nx; ++x)
-                fields(y * nx + x, i) = nodes[static_cast<size_t>(i)](x, y);
-    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(fields);
-    const Eigen::MatrixXd r = qr.matrixQR().topRows(count).triangularView<Eigen::Upper>();
-    const Eigen::JacobiSVD<Eigen::MatrixXd> svd(r, Eigen::ComputeThinU | Eigen::ComputeThinV);
-    const Eigen::MatrixXd modes = (qr.householderQ() * Eigen::MatrixXd::Identity(nx * ny, count)) *
-                                  (svd.matrixU() * svd.singularValues().asDiagonal());
-    const auto reach = [&](Eigen::Index k) {
-        return modes.col(k).lpNorm<Eigen::Infinity>() *
-               svd.matrixV().col(k).lpNorm<Eigen::Infinity>();
-    };
-    Eigen::Index kept = count;
-    for (double left_out = 0;
-         kept > 1 &&
-         (left_out += reach(kept - 1)) < share_of_modes * settings_.eps * plain_.faintest_peak;)
-        --kept;
-    left_out_.assign(static_cast<size_t>(kept) + 1, 0);
-    for (Eigen::Index k = kept; k-- > 0;)
-        left_out_[static_cast<size_t>(k)] = left_out_[static_cast<size_t>(k) + 1] + reach(k);
-    mode_.clear();
-    share_.assign(nodes.size(), {});
-    for (Eigen::Index k = 0; k < kept; ++k) {
-        Plane<double> &mode = mode_.emplace_back(Plane<double>::with_aligned_rows(nx, ny));
-        for (int64_t y = 0; y < ny; ++y)
-            for (int64_t x = 0; x < nx; ++x)
-                mode(x, y) = modes(y * nx + x, k);
-        for (Eigen::Index i = 0; i < count; ++i)
-            share_[static_cast<size_t>(i)].push_back(svd.matrixV()(i, k));
+// A row of all nodes at a time, along one axis of the detector and then the other. Farther from the
+// star coefficients stay what they were.
+void VaryingPsf::expand(const std::vector<Plane<double>> &nodes, double radius) {
+    const int n = degree_ + 1;
+    const int64_t size = plain_.value.nx();
+    const std::vector<std::vector<double>> matrix = to_coefficients(degree_);
+    const auto [begin, end] = reach_of(plain_, radius);
+    const int64_t count = end - begin;
+    std::vector<Mode> coarse = std::exchange(mode_, {});
+    for (int j = 0; j < n; ++j)
+        for (int i = 0; i + j < n; ++i) {
+            const auto before = std::ranges::find_if(
+                coarse, [i, j](const Mode &mode) { return mode.i == i && mode.j == j; });
+            mode_.push_back(
+                {i, j, 0,
+                 before == coarse.end() ? Plane<double>(size, size) : std::move(before->light)});
+        }
+    Plane<double> along_x(count, n);
+    for (int64_t y = begin; y < end; ++y) {
+        for (Mode &mode : mode_)
+            std::fill_n(mode.light.view().row(y) + begin, count, 0.0);
+        for (int i = 0; i < n; ++i) {
+            std::fill_n(along_x.view().data, count * n, 0.0);
+            for (int row = 0; row < n; ++row)
+                for (int column = 0; column < n; ++column) {
+                    const Plane<double> &light = nodes[static_cast<size_t>(row * n + column)];
+                    const int64_t edge = (size - light.nx()) / 2; // that it lacks
+                    add_scaled(matrix[static_cast<size_t>(i)][static_cast<size_t>(column)],
+                               light.view().row(y - edge) + begin - edge, count,
+                               along_x.view().row(row));
+                }
+            for (Mode &mode : mode_)
+                if (mode.i == i)
+                    for (int row = 0; row < n; ++row)
+                        add_scaled(matrix[static_cast<size_t>(mode.j)][static_cast<size_t>(row)],
+                                   along_x.view().row(row), count,
+                                   mode.light.view().row(y) + begin);
+        }
+    }
+    for (Mode &mode : mode_)
+        for (int64_t y = 0; y < size; ++y)
+            for (int64_t x = 0; x < size; ++x)
+                mode.largest = std::max(mode.largest, std::abs(mode.light(x, y)));
+    std::ranges::stable_sort(mode_, std::ranges::greater(), &Mode::largest);
+    double left_out = 0;
+    while (mode_.size() > 1 && (left_out += mode_.back().largest) <
+                                   share_of_modes * settings_.eps * plain_.faintest_peak)
+        mode_.pop_back();
+    find_left_out();
+}
+
+void VaryingPsf::find_left_out() {
+    const auto rings = static_cast<size_t>(std::ceil(settings_.radius)) + 1;
+    left_out_.assign(rings, std::vector<double>(mode_.size() + 1, 0));
+    std::vector<double> brightest(rings);
+    for (size_t k = mode_.size(); k-- > 0;) {
+        const Plane<double> &light = mode_[k].light;
+        const int64_t centre = light.nx() / 2;
+        std::ranges::fill(brightest, 0);
+        for (int64_t y = 0; y < light.ny(); ++y)
+            for (int64_t x = 0; x < light.nx(); ++x) {
+                const int64_t off = std::max(std::abs(x - centre), std::abs(y - centre));
+                double &most =
+                    brightest[std::min(static_cast<size_t>(off / plain_.per_pixel), rings - 1)];
+                most = std::max(most, std::abs(light(x, y)));
+            }
+        for (size_t r = rings; r-- > 0;) {
+            if (r + 1 < rings)
+                brightest[r] = std::max(brightest[r], brightest[r + 1]);
+            left_out_[r][k] = left_out_[r][k + 1] + brightest[r];
+        }
     }
 }
 
+std::vector<double> VaryingPsf::field_radii(double radius, double left_out) const {
+    std::vector<double> radii;
+    size_t r = left_out_.size(); // beyond r - 1 all is left out that comes after the first k modes
+    for (size_t k = 0; k < mode_.size(); ++k) {
+        while (r > 0 && left_out_[r - 1][k] <= left_out)
+            --r;
+        if (r == 0)
+            break;
+        radii.push_back(std::min(radius, static_cast<double>(r)));
+    }
+    return radii;
+}
+
 // Between the nodes, where polynomials err most: near the corners and the edges, and inside.
-double VaryingPsf::measured_error() {
+double VaryingPsf::measure(double radius) {
     constexpr double safety = 1.5; // for all places that are not looked at
     const double outer = std::cos(pi / (2 * degree_)), inner = std::sin(pi / (2 * degree_));
-    double worst = 0;
+    std::vector<double> by_ring(static_cast<size_t>(std::ceil(settings_.radius)) + 2);
     for (const auto &[u, v] :
          {std::pair(outer, outer), std::pair(-outer, outer), std::pair(outer, -outer),
           std::pair(-outer, -inner), std::pair(inner, outer), std::pair(inner, -inner)}) {
-        const Field truth = exact(u, v);
+        const Field truth = exact(u, v, radius);
         const auto [x, y] = place(u, v);
-        Plane<double> light(plain_.value.nx(), plain_.value.ny());
-        std::vector<double> weight(mode_.size());
-        weights(x, y, weight);
-        sum_planes(mode_, weight, all_of(light.view()), light.view());
-        worst = std::max(worst, largest_difference(light, truth.value) / truth.faintest_peak);
+        const Field sum = sum_at(x, y);
+        const auto [begin, end] = reach_of(plain_, radius);
+        const int64_t edge = (sum.value.nx() - truth.value.nx()) / 2, centre = sum.value.nx() / 2;
+        for (int64_t j = begin; j < end; ++j)
+            for (int64_t i = begin; i < end; ++i) {
+                const int64_t off = std::max(std::abs(i - centre), std::abs(j - centre));
+                double &most =
+                    by_ring[std::min(static_cast<size_t>(off / sum.per_pixel), by_ring.size() - 1)];
+                most = std::max(
+                    most, safety * std::abs(sum.value(i, j) - truth.value(i - edge, j - edge)) /
+                              truth.faintest_peak);
+            }
     }
-    return safety * worst;
+    const double allowed = share_of_places * settings_.eps;
+    size_t wrong = by_ring.size(); // rings within
+    while (wrong > 0 && by_ring[wrong - 1] <= allowed)
+        --wrong;
+    const double worst_there = *std::ranges::max_element(by_ring);
+    const double worst_beyond =
+        wrong < by_ring.size()
+            ? *std::max_element(by_ring.begin() + static_cast<std::ptrdiff_t>(wrong), by_ring.end())
+            : 0;
+    interpolation_error_ = std::max(error_beyond_, worst_there);
+    error_beyond_ = std::max(error_beyond_, worst_beyond);
+    return std::min(radius, static_cast<double>(wrong));
 }
 
 void VaryingPsf::weights(double x, double y, std::span<double> out) const {
     const auto scaled = [](double at, double low, double high) {
         return std::clamp(2 * (at - low) / (high - low) - 1, -1.0, 1.0);
     };
-    const auto along_x = lagrange(scaled(x, region_.x0, region_.x1), degree_);
-    const auto along_y = lagrange(scaled(y, region_.y0, region_.y1), degree_);
-    std::ranges::fill(out, 0.0);
-    const auto n = static_cast<size_t>(degree_) + 1;
-    for (size_t j = 0; j < n; ++j)
-        for (size_t i = 0; i < n; ++i) {
-            const double weight = along_x[i] * along_y[j];
-            const std::vector<double> &shares = share_[j * n + i];
-            for (size_t k = 0; k < out.size(); ++k)
-                out[k] += weight * shares[k];
-        }
+    const auto along_x = chebyshev(scaled(x, region_.x0, region_.x1), degree_);
+    const auto along_y = chebyshev(scaled(y, region_.y0, region_.y1), degree_);
+    for (size_t k = 0; k < out.size(); ++k)
+        out[k] =
+            along_x[static_cast<size_t>(mode_[k].i)] * along_y[static_cast<size_t>(mode_[k].j)];
+}
+
+Field VaryingPsf::sum_at(double x, double y) const {
+    std::vector<double> weight(mode_.size());
+    weights(x, y, weight);
+    Field field = plain_;
+    field.value = Plane<double>(field.value.nx(), field.value.ny());
+    for (size_t k = 0; k < mode_.size(); ++k)
+        for (int64_t row = 0; row < field.value.ny(); ++row)
+            add_scaled(weight[k], mode_[k].light.view().row(row), field.value.nx(),
+                       field.value.view().row(row));
+    return field;
 }
 
 bool VaryingPsf::is_inside(double x, double y) const {
@@ -241,10 +291,7 @@ Psf VaryingPsf::at(double x, double y) const {
     if (!is_inside(x, y))
         fail(WFPSF_ERROR_RANGE, "(x, y) = (%g, %g): must lie in %g..%g, %g..%g", x, y, region_.x0,
              region_.x1, region_.y0, region_.y1);
-    Field field = plain_;
-    std::vector<double> weight(mode_.size());
-    weights(x, y, weight);
-    sum_planes(mode_, weight, all_of(field.value.view()), field.value.view());
+    Field field = sum_at(x, y);
     field.find_peaks();
     field.error = error_;
     return Psf(optics_(x, y), light_, settings_, std::move(field));
@@ -267,7 +314,8 @@ void VaryingPsf::add(std::span<const Star> stars, double x0, double y0, int64_t 
                  "star %zu: stands at (%g, %g) of the detector, must lie in %g..%g, %g..%g", i, x,
                  y, region_.x0, region_.x1, region_.y0, region_.y1);
     }
-    const StarDetail all{settings_.radius, mode_.size()};
+    const std::vector<double> radii(mode_.size(), settings_.radius);
+    const StarDetail all{settings_.radius, radii};
     on_bands_of_rows(image.ny, threads, [&](int64_t first_row, int64_t last_row) {
         add_rows(
             stars, [&all](size_t) -> const StarDetail & { return all; }, x0, y0, oversampling,
@@ -292,14 +340,26 @@ void VaryingPsf::add_rows(std::span<const Star> stars, DetailOf detail_of, doubl
     const auto native = [n](double sample) { return (sample - (n - 1) / 2) / n; };
     Field field = plain_;
     std::vector<double> weight(mode_.size());
+    std::vector<Window> windows; // of the modes
     add_stars_to_rows(
         stars, [&](size_t i) { return n * detail_of(i).radius; }, oversampling, image, first_row,
         last_row,
         [&](size_t i) -> const Field & {
             const StarDetail &detail = detail_of(i);
-            const std::span first(weight.data(), detail.rank);
+            const std::span first(weight.data(), detail.field_radii.size());
             weights(x0 + native(stars[i].x), y0 + native(stars[i].y), first);
-            sum_planes(mode_, first, reach_of(field, detail.radius), field.value.view());
+            windows.clear();
+            for (const double radius : detail.field_radii)
+                windows.push_back(reach_of(field, radius, 1));
+            const auto [begin, end] = reach_of(field, detail.radius, 1);
+            for (int64_t y = begin; y < end; ++y) {
+                double *const row = field.value.view().row(y);
+                std::fill(row + begin, row + end, 0.0);
+                for (size_t k = 0; k < first.size(); ++k)
+                    if (y >= windows[k].begin && y < windows[k].end)
+                        add_scaled(first[k], mode_[k].light.view().row(y) + windows[k].begin,
+                                   windows[k].end - windows[k].begin, row + windows[k].begin);
+            }
             return field;
         });
 }

@@ -15,9 +15,10 @@ inline double digits(double eps) {
 
 // A PSF that reaches `radius` native pixels, of light of a relative bandwidth (0: one colour).
 inline double psf(double radius, double eps, double bandwidth) {
+    if (bandwidth > 0)
+        return digits(eps) * (1.5e-3 + 1.6e-5 * radius * radius);
     const double per_area = radius <= 64 ? 2.7e-6 : 8.5e-6;
-    const double wavelengths = bandwidth == 0 ? 1 : 8 + 2 * digits(eps);
-    return wavelengths * (0.7e-3 + per_area * radius * radius);
+    return 0.7e-3 + per_area * radius * radius;
 }
 
 // A stamp of `pixels` pixels straight from the diffraction image, beyond the radius made in advance.
@@ -30,22 +31,24 @@ inline double large_stamp(double pixels, double radius, double bandwidth) {
 inline double shared_psf(double radius, double eps, double bandwidth, bool varies) {
     if (!varies)
         return psf(radius, eps, bandwidth);
-    const double exact = eps >= 1e-2 ? 16 : eps >= 1e-4 ? 38 : eps >= 1e-8 ? 100 : 300;
-    const double samples = 64 * (radius + 2) * (radius + 2);
-    return exact * psf(radius, eps, bandwidth) + 2.5e-9 * exact * exact * samples;
+    // Far from the core few places are enough.
+    const double exact = eps >= 2e-5 ? 38 : eps >= 1e-8 ? 100 : 300;
+    constexpr double far = 16, core = 16;
+    return 0.7 * (far * psf(radius, eps, bandwidth) +
+                  (exact - far) * psf(std::min(radius, core), eps, bandwidth));
 }
 
-// A star's stamp of width^2 pixels from a field; rank: fields that are summed first.
-inline double stamp(double width, double rank) {
-    constexpr double per_pixel = 4;
-    const double window = (width * per_pixel + 16) * (width * per_pixel + 16);
-    const double beyond_cache = std::clamp(window * rank / 1e6, 1.0, 4.0);
-    return 1.2e-6 + 1.1e-8 * width * width + 0.25e-9 * (rank - 1) * window * beyond_cache;
+// Samples of a field that stamps of a radius are drawn from.
+inline double samples(double radius) {
+    constexpr double per_pixel = 5, filter = 8;
+    const double width = 2 * per_pixel * radius + 2 * filter;
+    return width * width;
 }
 
-// Fields that a PSF is a sum of, when what is left out is that share of its peak.
-inline double rank(double left_out) {
-    return std::clamp(1 - 4.8 * std::log10(left_out / 0.08), 1.0, 60.0);
+// A star's stamp of width^2 pixels from a field, of so many native pixels' radius; and so many
+// samples of fields that are summed first.
+inline double stamp(double width, double radius, double summed) {
+    return 1.2e-6 + 3e-9 * width * (width + 2 * 5 * radius) + 0.3e-9 * summed;
 }
 
 // Far light on that many pixels, drawn by itself; and from a table, where it is bright enough.

@@ -8,8 +8,6 @@ namespace wfpsf {
 
 LightProfile::LightProfile(const Psf &psf) {
     constexpr int64_t n = 2; // samples a native pixel
-    // The PSF of one place stands for those of a detector, whose wings differ a little.
-    constexpr double safety = 1.3;
     const auto radius = static_cast<int64_t>(psf.settings().radius) - 1;
     const int64_t size = 2 * radius * n + 1;
     Plane<double> image(size, size);
@@ -42,6 +40,11 @@ double LightProfile::at(const std::vector<double> &by_radius, double radius, int
     // From the brightest of the outer quarter on.
     const double from = std::floor(0.75 * last);
     return by_radius[static_cast<size_t>(from)] * std::pow(from / radius, power);
+}
+
+double LightProfile::mean_at(double radius) const {
+    const double light = std::max(beyond(radius - 1) - beyond(radius), 0.0) / safety;
+    return light / (8 * radius);
 }
 
 } // namespace wfpsf

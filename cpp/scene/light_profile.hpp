@@ -21,8 +21,15 @@ class LightProfile {
     // native pixels of the star along both axes, and all of it there.
     double brightest_beyond(double radius) const { return at(brightest_, radius, 2); }
     double beyond(double radius) const { return at(outside_, radius, 1); }
+    // What is expected in a native pixel, on the average of all directions.
+    double mean_at(double radius) const;
+    // How much the latter may be off, for all places of a detector.
+    static constexpr double mean_varies = 0.25;
 
   private:
+    // The PSF of one place stands for those of a detector, whose wings differ a little.
+    static constexpr double safety = 1.3;
+
     double at(const std::vector<double> &by_radius, double radius, int power) const;
 
     std::vector<double> brightest_, outside_; // at 0, 1, 2, ... native pixels

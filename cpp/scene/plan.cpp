@@ -43,6 +43,19 @@ double far_difference(const FarLight &a, const FarLight &b) {
 
 constexpr double safety_of_squares = 1.5;
 
+// Offers that another one beats in time and error are of no use at any price.
+using Offers = std::vector<Offer>;
+void add_useful(Offers &offers, const Offer &offer) {
+    const auto beats = [](const Offer &a, const Offer &b) {
+        return a.time_s <= b.time_s && a.error.local <= b.error.local &&
+               a.error.mean <= b.error.mean;
+    };
+    if (std::ranges::any_of(offers, [&](const Offer &other) { return beats(other, offer); }))
+        return;
+    std::erase_if(offers, [&](const Offer &other) { return beats(offer, other); });
+    offers.push_back(offer);
+}
+
 // The best of some offers when an electron of error costs `price` seconds, the local errors of all
 // groups together being about `local`: what a square more adds to their root.
 class Best {
@@ -172,9 +185,35 @@ void ScenePlan::choose_galaxy_cells(const SceneOptics &optics) {
         error /= galaxy_cells_;
 }
 
+void ScenePlan::collect_offers() {
+    alone_.assign(planned_.size(), {});
+    for (size_t g = 0; g < planned_.size(); ++g) {
+        const SourceGroup &group = planned_[g].group;
+        const Ways ways(group, colours_[static_cast<size_t>(group.colour)], budget_, image_);
+        ways.of_own([&](const Offer &offer) { add_useful(alone_[g], offer); });
+        ways.of_fourier(cell_error_[g], [&](const Offer &offer) { add_useful(alone_[g], offer); });
+    }
+    by_model_.assign(colours_.size(), {});
+    for (size_t colour = 0; colour < colours_.size(); ++colour) {
+        const ColourFacts &facts = colours_[colour];
+        for (const double eps : {1e-2, 1e-3, 1e-4, 2.5e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10})
+            for (const double radius : {8.0, 16.0, 24.0, 32.0, 48.0, 64.0, 96.0}) {
+                ModelOffers &offers = by_model_[colour].emplace_back();
+                offers.model = {true, eps, radius,
+                                cost::shared_psf(radius, eps, facts.bandwidth, facts.varies)};
+                offers.by_group.resize(planned_.size());
+                for (size_t g = 0; g < planned_.size(); ++g)
+                    if (planned_[g].group.colour == static_cast<int32_t>(colour))
+                        Ways(planned_[g].group, facts, budget_, image_)
+                            .of_shared(offers.model, [&](const Offer &offer) {
+                                add_useful(offers.by_group[g], offer);
+                            });
+            }
+    }
+}
+
 // What is best for a colour at a price of error, by the best shared model for it.
 void ScenePlan::settle_colour(int32_t colour, double price) {
-    const ColourFacts &facts = colours_[static_cast<size_t>(colour)];
     std::vector<size_t> of_colour;
     for (size_t g = 0; g < planned_.size(); ++g)
         if (planned_[g].group.colour == colour)
@@ -182,20 +221,19 @@ void ScenePlan::settle_colour(int32_t colour, double price) {
     std::vector<Best> without; // a shared model
     for (const size_t g : of_colour) {
         Best &best = without.emplace_back(price, budget_.error() / (2 * safety_of_squares));
-        const Ways ways(planned_[g].group, facts, budget_, image_);
-        ways.of_own([&](const Offer &offer) { best.consider(offer); });
-        ways.of_fourier(cell_error_[g], [&](const Offer &offer) { best.consider(offer); });
+        for (const Offer &offer : alone_[g])
+            best.consider(offer);
     }
     std::vector<Best> taken;
     SharedModel chosen;
     double least = INFINITY;
-    const auto consider = [&](const SharedModel &model) {
+    const auto consider = [&](const SharedModel &model, std::span<const Offers> by_group) {
         double total = model.time_s;
         std::vector<Best> now = without;
         for (size_t i = 0; i < of_colour.size(); ++i) {
             if (model.needed)
-                Ways(planned_[of_colour[i]].group, facts, budget_, image_)
-                    .of_shared(model, [&](const Offer &offer) { now[i].consider(offer); });
+                for (const Offer &offer : by_group[of_colour[i]])
+                    now[i].consider(offer);
             total += now[i].total(now[i].offer());
         }
         if (total < least) {
@@ -204,11 +242,9 @@ void ScenePlan::settle_colour(int32_t colour, double price) {
             chosen = model;
         }
     };
-    consider({});
-    for (double eps = 1e-2; eps > 1e-10; eps /= 10)
-        for (const double radius : {8.0, 16.0, 24.0, 32.0, 48.0, 64.0})
-            consider(
-                {true, eps, radius, cost::shared_psf(radius, eps, facts.bandwidth, facts.varies)});
+    consider({}, {});
+    for (const ModelOffers &offers : by_model_[static_cast<size_t>(colour)])
+        consider(offers.model, offers.by_group);
     models_[static_cast<size_t>(colour)] = chosen;
     for (size_t i = 0; i < of_colour.size(); ++i) {
         const Offer &offer = taken[i].offer();
@@ -237,6 +273,7 @@ void ScenePlan::settle(double price) {
 // others dear.
 void ScenePlan::choose() {
     constexpr double close = 1.2;
+    collect_offers();
     double low = -12, high = 12; // log10, s per e-
     settle(std::pow(10.0, high));
     if (planned_.empty())

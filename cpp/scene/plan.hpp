@@ -70,6 +70,7 @@ class ScenePlan {
   private:
     void learn_colours(const SceneOptics &optics);
     void choose_galaxy_cells(const SceneOptics &optics);
+    void collect_offers();
     void settle(double price);
     void settle_colour(int32_t colour, double price);
     void choose();
@@ -81,7 +82,13 @@ class ScenePlan {
     std::unique_ptr<SourceGroups> groups_;
     std::vector<ColourFacts> colours_;
     std::vector<PlannedGroup> planned_;
-    std::vector<double> cell_error_; // of groups of galaxies, by their PSF's place
+    std::vector<double> cell_error_;        // of groups of galaxies, by their PSF's place
+    std::vector<std::vector<Offer>> alone_; // by group: without a shared model
+    struct ModelOffers {
+        SharedModel model;
+        std::vector<std::vector<Offer>> by_group;
+    };
+    std::vector<std::vector<ModelOffers>> by_model_; // by colour
     std::vector<SharedModel> models_;
     int galaxy_cells_ = 1;
     double time_s_ = 0, error_ = 0;

@@ -2,6 +2,7 @@
 #include "scene/render.hpp"
 
 #include "numerics/bands.hpp"
+#include "scene/faint_light.hpp"
 #include "scene/far_table.hpp"
 #include "scene/galaxy.hpp"
 
@@ -51,8 +52,7 @@ template <class T> class Renderer {
     Renderer(const SceneOptics &optics, const ScenePlan &plan, View<T> image, int threads,
              const Manners &manners)
         : optics_(optics), plan_(plan), image_(image), frame_(plan.image()), threads_(threads),
-          manners_(manners), models_(plan.models().size()), far_(models_.size()),
-          tables_(models_.size()) {}
+          manners_(manners), models_(plan.models().size()), tables_(models_.size()) {}
 
     RenderReport run() {
         make_models();
@@ -76,38 +76,35 @@ template <class T> class Renderer {
                     Manners{manners_.progress.between(0, 0.2), manners_.memory_limit});
                 report_.exact_psfs += models_[colour]->exact_psfs();
             }
-            bool far = false, table = false;
-            for (const PlannedGroup &planned : plan_.groups())
-                if (planned.group.colour == static_cast<int32_t>(colour) && planned.way.far > 0) {
-                    far = true;
-                    table = table || planned.way.drawing == Drawing::shared;
-                }
-            if (far)
-                far_[colour] = far_light_of(optics_.middle(), light, settings(1e-4, 32));
+            const bool table = std::ranges::any_of(plan_.groups(), [&](const PlannedGroup &g) {
+                return g.group.colour == static_cast<int32_t>(colour) && g.way.far > 0 &&
+                       g.way.drawing == Drawing::shared;
+            });
             if (table)
-                tables_[colour].emplace(*far_[colour], Way::largest_table);
+                tables_[colour].emplace(*far_light_of(optics_.middle(), light, far_settings()),
+                                        Way::largest_table);
         }
         report_.models_s = clock.seconds();
     }
 
-    // As few fields as leave out no more than was planned.
+    // As little of the fields as leaves out no more than was planned.
     void find_details() {
         std::vector<PixelError> errors;
         for (const PlannedGroup &planned : plan_.groups()) {
             const Way &way = planned.way;
             const double peak = plan_.colour(planned.group.colour).profile.peak();
-            size_t rank = 0;
+            std::vector<double> &radii = field_radii_.emplace_back();
             double of_psf = way.eps * peak;
             if (way.drawing == Drawing::shared) {
                 const VaryingPsf &model = *models_[static_cast<size_t>(planned.group.colour)];
-                rank = 1;
-                while (rank < model.rank() && model.left_out(rank) > way.left_out)
-                    ++rank;
+                radii = model.field_radii(way.radius, way.left_out);
                 of_psf = model.error_estimate() * peak;
             }
-            details_.push_back({way.radius, rank});
-            errors.push_back({std::max(planned.error.local, planned.group.densest * of_psf),
-                              planned.error.mean});
+            errors.push_back(
+                {std::max(planned.error.local,
+                          in_noise_of_star(planned.group, plan_.colour(planned.group.colour),
+                                           plan_.budget(), of_psf)),
+                 planned.error.mean});
         }
         report_.error = together(errors);
     }
@@ -138,7 +135,29 @@ template <class T> class Renderer {
                 if (models_[colour])
                     draw_shared(part, static_cast<int32_t>(colour));
         }
+        draw_faint_light();
         report_.shared_s = clock.seconds();
+    }
+
+    void draw_faint_light() {
+        std::vector<std::vector<const PlacedSource *>> of_group(plan_.groups().size());
+        for (const PlacedSource &source : plan_.sources()) {
+            const size_t g = plan_.group_index(source);
+            const PlannedGroup &planned = plan_.groups()[g];
+            if (planned.way.is_smooth_beyond() && planned.way.radius < planned.group.reach)
+                of_group[g].push_back(&source);
+        }
+        FaintLight light(plan_.image());
+        for (size_t g = 0; g < of_group.size(); ++g) {
+            for (const PlacedSource *source : of_group[g])
+                light.add(*source);
+            const PlannedGroup &planned = plan_.groups()[g];
+            if (!of_group[g].empty())
+                light.spread(plan_.colour(planned.group.colour).profile, planned.way.radius);
+        }
+        on_rows(0, static_cast<double>(image_.ny), [&](int64_t first_row, int64_t last_row) {
+            light.add_to(image_, first_row, last_row);
+        });
     }
 
     void draw_shared(std::span<const PlacedSource> sources, int32_t colour) {
@@ -158,7 +177,7 @@ template <class T> class Renderer {
             if (!frame_.reaches(star, reach))
                 continue;
             stars.push_back(star);
-            details.push_back(details_[group]);
+            details.push_back({way.radius, field_radii_[group]});
             far.push_back(way.far);
             const double samples = reach * static_cast<double>(plan_.image().oversampling);
             low = std::min(low, star.y - samples);
@@ -288,8 +307,9 @@ template <class T> class Renderer {
         const int64_t n = plan_.image().oversampling;
         const Star star = frame_.star(source);
         if (way.far > 0)
-            far_[static_cast<size_t>(source.colour)]->add(
-                star, way.radius, way.far * std::abs(star.flux), image_, threads_);
+            far_light_of(optics_.nearest(source.x, source.y),
+                         optics_.lights[static_cast<size_t>(source.colour)], far_settings())
+                ->add(star, way.radius, way.far * std::abs(star.flux), image_, threads_);
         if (way.radius <= Way::largest_field) {
             psf.add(std::span(&star, 1), n, image_, threads_);
             return;
@@ -308,6 +328,7 @@ template <class T> class Renderer {
                  part, Psf::Drawing::adds, manners_);
     }
 
+    PsfSettings far_settings() const { return settings(1e-4, 32); }
     PsfSettings settings(double eps, double radius) const {
         PsfSettings settings = optics_.settings;
         settings.eps = eps;
@@ -323,9 +344,8 @@ template <class T> class Renderer {
     const Manners &manners_;
     // By colour.
     std::vector<std::unique_ptr<VaryingPsf>> models_;
-    std::vector<std::optional<FarLight>> far_;
     std::vector<std::optional<FarTable>> tables_;
-    std::vector<StarDetail> details_; // by group
+    std::vector<std::vector<double>> field_radii_; // by group
     RenderReport report_;
 };
 

@@ -4,6 +4,8 @@
 #include "detector/ipc_convolve.hpp"
 #include "moments/adaptive.hpp"
 #include "numerics/bands.hpp"
+#include "optics/otf.hpp"
+#include "scene/galaxy.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +16,9 @@ namespace wfpsf {
 
 namespace {
 
-constexpr int64_t oversampling = 4, native_side = 33; // the weight reaches about 6 sigma
+constexpr int64_t oversampling = 4;
+// Of a stamp, native pixels: the weight reaches about 6 sigma.
+constexpr int64_t star_side = 33, largest_side = 257;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr TrueShape none{nan, nan, nan, nan, nan};
 
@@ -59,6 +63,41 @@ class Measuring {
     const TruthOptions &options_;
 };
 
+// As many native pixels, an odd number, as the moments of a source need.
+int64_t side_of(const PlacedSource &source, const ScenePlan &plan, double pixel_scale_arcsec) {
+    if (source.shape == PlacedSource::star)
+        return star_side;
+    const GalaxyShape &shape = plan.shapes()[static_cast<size_t>(source.shape)];
+    const double radius = shape.half_light_radius_arcsec / pixel_scale_arcsec;
+    const auto more = static_cast<int64_t>(std::min(8 * radius, 1e3));
+    return std::min(star_side + 2 * more, largest_side);
+}
+
+// The source alone, seen through the PSF of its place, in electrons a sample.
+Plane<double> image_of(const PlacedSource &source, const Psf &psf, const SceneOptics &optics,
+                       const ScenePlan &plan, int64_t side, double x0, double y0) {
+    const auto sample = [](double native) {
+        return native * oversampling + static_cast<double>(oversampling - 1) / 2;
+    };
+    Plane<double> image(side * oversampling, side * oversampling);
+    const Star centre{sample(source.x - x0), sample(source.y - y0), source.flux};
+    if (source.shape == PlacedSource::star) {
+        psf.draw(centre, oversampling, image.view());
+        return image;
+    }
+    constexpr double otf_eps = 1e-4, tolerance = 1e-8; // of the flux
+    const PsfSettings &s = psf.settings();
+    const Otf otf(psf.components(), s.pixel_scale, s.mirrored, otf_eps, s.blur, s.pixel_response);
+    SersicProfiles profiles;
+    GalaxyDrawer drawer(transfer_of(otf, s.pixel_scale / oversampling),
+                        optics.pixel_scale_arcsec / oversampling, profiles);
+    const GalaxyShape &shape = plan.shapes()[static_cast<size_t>(source.shape)];
+    drawer.add(Galaxy{centre.x, centre.y, centre.flux, shape.sersic_index,
+                      shape.half_light_radius_arcsec, shape.e1, shape.e2},
+               tolerance * std::abs(source.flux), image.view());
+    return image;
+}
+
 } // namespace
 
 std::vector<SourceTruth> truth_of(const SceneOptics &optics, const ScenePlan &plan,
@@ -66,7 +105,7 @@ std::vector<SourceTruth> truth_of(const SceneOptics &optics, const ScenePlan &pl
                                   const TruthOptions &options) {
     PsfSettings settings = optics.settings;
     settings.eps = options.eps;
-    settings.radius = static_cast<double>(native_side) / 2 + 1;
+    settings.radius = static_cast<double>(star_side) / 2 + 1;
     std::vector<std::unique_ptr<VaryingPsf>> models(optics.lights.size()); // by colour
     for (const PlacedSource &source : sources) {
         const auto colour = static_cast<size_t>(source.colour);
@@ -86,14 +125,10 @@ std::vector<SourceTruth> truth_of(const SceneOptics &optics, const ScenePlan &pl
                 std::clamp(source.x, region.x0, region.x1),
                 std::clamp(source.y, region.y0, region.y1));
             // The source in the middle native pixel, where it stands in its own.
-            constexpr int64_t half = native_side / 2;
+            const int64_t side = side_of(source, plan, optics.pixel_scale_arcsec);
+            const auto half = static_cast<double>(side / 2);
             const double x0 = std::round(source.x) - half, y0 = std::round(source.y) - half;
-            const auto sample = [](double native) {
-                return native * oversampling + static_cast<double>(oversampling - 1) / 2;
-            };
-            Plane<double> image(native_side * oversampling, native_side * oversampling);
-            psf.draw({sample(source.x - x0), sample(source.y - y0), source.flux}, oversampling,
-                     image.view());
+            const Plane<double> image = image_of(source, psf, optics, plan, side, x0, y0);
             truths[static_cast<size_t>(i)] = measuring.of(source, image, x0, y0);
         }
     });

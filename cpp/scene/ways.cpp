@@ -2,6 +2,7 @@
 #include "scene/ways.hpp"
 
 #include "scene/cost.hpp"
+#include "scene/faint_light.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,6 +24,14 @@ std::vector<double> radii(double largest) {
 
 double SceneBudget::error() const {
     return noise * std::sqrt(variance);
+}
+
+double in_noise_of_star(const SourceGroup &group, const ColourFacts &colour,
+                        const SceneBudget &budget, double psf_error) {
+    // Of the group's faintest, in the least lucky place between pixels.
+    constexpr double share = 0.25;
+    const double light = share * group.brightest * colour.profile.peak();
+    return group.densest * psf_error / std::sqrt(1 + light / budget.variance);
 }
 
 double Ways::pixels(double radius) const {
@@ -51,19 +60,40 @@ double Ways::mean(double light, double cut) const {
     return group_.flux * std::min(light / (image_.native_x() * image_.native_y()), cut);
 }
 
+PixelError Ways::left_out(const Way &way) const {
+    if (way.radius >= group_.reach)
+        return {};
+    const double local = group_.densest * cut(way.radius);
+    const double light = colour_.profile.beyond(way.radius);
+    if (!way.is_smooth_beyond())
+        return {local, mean(light, cut(way.radius))};
+    // What scatters is what many sources that are not in that cell leave out here.
+    double squares = 0;
+    for (double r = way.radius + 1; r <= FaintLight::reach; r *= 1.1)
+        squares += std::pow(colour_.profile.mean_at(r), 2) * 8 * r * 0.1 * r;
+    constexpr double deviations = 2; // of the densest cell
+    const double scatter =
+        deviations * std::sqrt(group_.densest * group_.brightest * squares) / SourceGroup::cell;
+    return {std::hypot(local, scatter),
+            LightProfile::mean_varies * mean(light, cut(way.radius)) +
+                mean(colour_.profile.beyond(FaintLight::reach), cut(FaintLight::reach))};
+}
+
 void Ways::with_and_without_far(const Way &way, double time_s, double psf_error,
                                 const Take &take) const {
+    const double of_psf = in_noise_of_star(group_, colour_, budget_, psf_error);
     const double beyond = way.radius >= group_.reach ? 0 : colour_.profile.beyond(way.radius);
-    if (beyond <= budget_.flux)
-        take({way,
-              time_s,
-              {group_.densest * (cut(way.radius) + psf_error), mean(beyond, cut(way.radius))}});
+    if (beyond <= budget_.flux) {
+        const PixelError error = left_out(way);
+        take({way, time_s, {error.local + of_psf, error.mean}});
+    }
     if (!colour_.far || way.radius < colour_.far->nearest() || way.radius >= group_.reach)
         return;
     const FarReach &far = *colour_.far;
     const bool own = way.drawing == Drawing::own;
-    const double off = far.error(way.radius, group_.brightest, budget_.variance) +
-                       colour_.far_varies * colour_.profile.brightest_beyond(way.radius);
+    const double varies =
+        own ? 0 : colour_.far_varies * colour_.profile.brightest_beyond(way.radius);
+    const double off = far.error(way.radius, group_.brightest, budget_.variance) + varies;
     for (const FarReach::Step &step : far.steps()) {
         // A table ends somewhere; drawn by itself, far light goes on.
         const double end =
@@ -76,24 +106,41 @@ void Ways::with_and_without_far(const Way &way, double time_s, double psf_error,
             continue;
         Way with = way;
         with.far = step.floor;
-        const double time = own ? cost::far_light(pixels(end)) : cost::far_blocks(step.pixels);
-        take({with,
-              time_s + count() * time,
-              {group_.densest * (left + off + psf_error), mean(light, left)}});
+        const double time = own ? cost::making_far_light + cost::far_light(pixels(end))
+                                : cost::far_blocks(step.pixels);
+        take(
+            {with,
+             time_s + count() * time,
+             {group_.densest * (left + off) + in_noise_of_star(group_, colour_, budget_, psf_error),
+              mean(light, left)}});
     }
 }
 
+// Samples of fields that a stamp is a sum of. Each field is some share of the one before, and falls
+// off as the light does.
+double Ways::model_samples(double radius, double left_out) const {
+    constexpr double first = 0.08, next = 0.62; // shares
+    double samples = cost::samples(radius);
+    if (!colour_.varies)
+        return samples;
+    double reach = radius;
+    for (double share = first; share * colour_.profile.peak() > left_out; share *= next) {
+        while (reach > 0 && share * colour_.profile.brightest_beyond(reach - 1) <= left_out)
+            --reach;
+        samples += cost::samples(reach);
+    }
+    return samples;
+}
+
 void Ways::of_shared(const SharedModel &model, const Take &take) const {
-    for (const double radius : radii(std::min(model.radius, group_.reach)))
-        for (double left_out = colour_.varies ? 1e-2 : model.eps; left_out >= model.eps / 2;
-             left_out /= 10) {
-            const double psf_error =
-                colour_.profile.peak() * (model.eps + left_out) + point_error();
-            const double rank = colour_.varies ? cost::rank(left_out) : 1;
-            with_and_without_far(
-                {Drawing::shared, radius, model.eps, colour_.profile.peak() * left_out, 0},
-                count() * cost::stamp(width(radius), rank), psf_error, take);
-        }
+    const double peak = colour_.profile.peak();
+    for (double left_out = colour_.varies ? 1e-2 : model.eps; left_out >= model.eps / 2;
+         left_out /= 4)
+        for (const double radius : radii(std::min(model.radius, group_.reach)))
+            with_and_without_far({Drawing::shared, radius, model.eps, peak * left_out, 0},
+                                 count() * cost::stamp(width(radius), radius,
+                                                       model_samples(radius, peak * left_out)),
+                                 peak * (model.eps + left_out) + point_error(), take);
 }
 
 void Ways::of_own(const Take &take) const {
@@ -104,7 +151,7 @@ void Ways::of_own(const Take &take) const {
             if (radius > Way::largest_field)
                 time += cost::large_stamp(pixels(radius), radius, colour_.bandwidth);
             else
-                time += cost::stamp(width(radius), 1);
+                time += cost::stamp(width(radius), radius, 0);
             with_and_without_far({Drawing::own, radius, eps, 0, 0}, count() * time,
                                  colour_.profile.peak() * eps + point_error(), take);
         }

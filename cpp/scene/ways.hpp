@@ -20,7 +20,7 @@ struct SceneBudget {
     // Largest share of a source's light that its stamp may leave out.
     double flux = std::numeric_limits<double>::infinity();
 
-    double error() const; // e- that a pixel may be off
+    double error() const; // e- that a pixel without sources may be off
 };
 
 enum class Drawing {
@@ -36,6 +36,9 @@ struct Way {
     double eps = 0;      // of the PSF, of its peak; of galaxies, of a pixel as a share of the flux
     double left_out = 0; // by modes of the shared model: largest share of the light in a pixel
     double far = 0;      // light beyond the stamp is drawn down to that share; 0: none is
+
+    // What the stamps leave out is drawn all the same, as smooth light.
+    bool is_smooth_beyond() const { return drawing == Drawing::shared && far == 0; }
 
     // Own PSFs are made out to here; what is farther is drawn straight from the diffraction image.
     static constexpr double largest_field = 256;
@@ -59,7 +62,8 @@ struct ColourFacts {
     double far_varies = 0; // share of the far light that differs over the detector
 };
 
-// Errors of a pixel, e-. Those in single places hardly ever meet: their squares add up. The means of
+// Errors of a pixel, e-; where a star's own light adds noise, as many as are that share of the noise
+// in a pixel without sources. Those in single places hardly ever meet: their squares add up. The means of
 // what is left out everywhere add up themselves.
 struct PixelError {
     double local = 0, mean = 0;
@@ -71,6 +75,11 @@ struct Offer {
     PixelError error = {std::numeric_limits<double>::infinity(), 0};
 };
 using Take = std::function<void(const Offer &)>;
+
+// An error of the PSF, a share of the light in a pixel, of all that a cell of the group holds. It is
+// largest in the core, whose light has noise, and falls off no slower than that noise does.
+double in_noise_of_star(const SourceGroup &group, const ColourFacts &colour,
+                        const SceneBudget &budget, double psf_error);
 
 class Ways {
   public:
@@ -88,8 +97,10 @@ class Ways {
     double pixels(double radius) const;
     double width(double radius) const;
     double point_error() const;
+    double model_samples(double radius, double left_out) const;
     double cut(double radius) const;
     double mean(double light, double cut) const;
+    PixelError left_out(const Way &way) const;
     // The same stamps without and with far light beyond them.
     void with_and_without_far(const Way &way, double time_s, double psf_error,
                               const Take &take) const;

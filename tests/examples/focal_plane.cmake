@@ -7,7 +7,7 @@ endforeach()
 function(run ranks folder detectors expected)
   execute_process(
     COMMAND ${CMAKE_COMMAND} -E env OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
-      ${MPIEXEC} --oversubscribe -n ${ranks} ${PROGRAM} ${folder} 1 20000 ${detectors}
+      ${MPIEXEC} --oversubscribe -n ${ranks} ${PROGRAM} ${folder} 1 300 ${detectors}
     OUTPUT_VARIABLE said COMMAND_ERROR_IS_FATAL ANY)
   if(NOT said MATCHES "^${expected}, by ${ranks} ranks")
     message(FATAL_ERROR "${ranks} ranks said: ${said}")

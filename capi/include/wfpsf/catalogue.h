@@ -82,9 +82,9 @@ WFPSF_EXPORT wfpsf_status wfpsf_catalogue_add_stars(wfpsf_catalogue *catalogue, 
  * change of area. They are not cut off anywhere.
  *
  * Given:    count, x, y, brightness, colour  as for wfpsf_catalogue_add_stars(); the centres
- *           sersic_index  n, 0.3..6.2: 0.5 is a Gaussian, 1 exponential, 4 de Vaucouleurs
+ *           sersic_index  n, dimensionless, 0.3..6.2: 0.5 is a Gaussian, 1 exponential, 4 de Vaucouleurs
  *           half_light_radius_arcsec  r_e before the shear, 1e-6..1000
- *           e1, e2        (a - b) / (a + b) times cosine and sine of twice the angle of the major
+ *           e1, e2        dimensionless: (a - b) / (a + b) times cosine and sine of twice the angle of the major
  *                         axis from x towards y of the detector; up to 0.95 in all. NULL: round
  * Status:   as for wfpsf_catalogue_add_stars()
  */

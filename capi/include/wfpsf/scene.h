@@ -121,6 +121,7 @@ WFPSF_EXPORT void wfpsf_scene_destroy(wfpsf_scene *scene);
  * One property of a scene.
  *
  * Given:    key    WFPSF_SCENE_*
+ * Returned: value  in the unit that the list above states
  * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME
  */
 WFPSF_EXPORT wfpsf_status wfpsf_scene_get(const wfpsf_scene *scene, int32_t key, double *value);
@@ -130,6 +131,7 @@ WFPSF_EXPORT wfpsf_status wfpsf_scene_get(const wfpsf_scene *scene, int32_t key,
  *
  * Given:    group  from 0; the number of groups is WFPSF_SCENE_GROUPS
  *           key    WFPSF_SCENE_GROUP_*
+ * Returned: value  in the unit that the list above states
  * Status:   ERROR_NULL, ERROR_RANGE, ERROR_UNKNOWN_NAME
  */
 WFPSF_EXPORT wfpsf_status wfpsf_scene_get_group(const wfpsf_scene *scene, int64_t group,
@@ -178,6 +180,7 @@ WFPSF_EXPORT void wfpsf_rendering_destroy(wfpsf_rendering *rendering);
  * One property of a rendering.
  *
  * Given:    key    WFPSF_RENDERING_*
+ * Returned: value  in the unit that the list above states
  * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME
  */
 WFPSF_EXPORT wfpsf_status wfpsf_rendering_get(const wfpsf_rendering *rendering, int32_t key,
@@ -211,7 +214,8 @@ enum { WFPSF_TRUTH_COLUMNS = 16 };
 
 /**
  * What is true of some sources: adaptive moments of each as it is seen through its PSF and pixel,
- * at pixel/4, without noise and neighbours, before and after IPC. About 0.2 ms a star.
+ * at pixel/4, without noise and neighbours, before and after IPC. About 0.2 ms a star; a galaxy takes
+ * the OTF of its place, about 0.1 s, or 1 s of many wavelengths.
  *
  * Given:    count    of sources asked about, >= 0
  *           sources  count numbers of sources in the catalogue, from 0; NULL: the first `count`
