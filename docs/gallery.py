@@ -3,11 +3,14 @@
 """Draws the pictures of docs/gallery.md with the Python package: scripts/pictures.sh."""
 import numpy as np
 import wfpsf
+from matplotlib.colors import LogNorm
 from matplotlib.patches import Polygon
 from pictures import extent, logarithmic, plt, save, show
 
 SCALE = 0.11  # arcsec, the pixel of both telescopes
 CENTRE = 2043.5  # of a detector, pixels
+COLOURS = {"shared": "tab:blue", "own": "tab:red", "fourier": "tab:green",
+           "fourier_own": "tab:olive"}
 
 
 def bands():
@@ -163,6 +166,48 @@ def spikes():
     save(figure, "spikes.png")
 
 
+def scene():
+    """A part of a detector with stars and galaxies, and how the plan drew which."""
+    side, stars, galaxies = 768, 3000, 1500
+    random = np.random.default_rng(7)
+    roman = wfpsf.Instrument("roman-c9")
+    catalogue = wfpsf.Catalogue("detector", "ab_magnitude")
+    catalogue.add_colour(sed=wfpsf.SED.black_body(5000))
+    least = 10 ** (0.35 * (16 - 27))  # counts rise as 10^(0.35 m) from 16 to 27
+    magnitude = 27 + np.log10(least + random.random(stars) * (1 - least)) / 0.35
+    magnitude[:3] = 15.5, 16.5, 18
+    x, y = side * random.random((2, stars + galaxies))
+    x[:3], y[:3] = (300, 610, 130), (420, 180, 90)
+    catalogue.add_stars(x[:stars], y[:stars], magnitude)
+    shear, angle = 0.3 * random.random(galaxies), 2 * np.pi * random.random(galaxies)
+    catalogue.add_galaxies(x[stars:], y[stars:], random.uniform(22, 26, galaxies),
+                           sersic_index=random.choice([1.0, 4.0], galaxies),
+                           half_light_radius_arcsec=random.uniform(0.15, 0.6, galaxies),
+                           e1=shear * np.cos(angle), e2=shear * np.sin(angle))
+    background = 40
+    plan = wfpsf.Scene(roman, "J129", 7, catalogue, (side, side), 1600, 1600, scene_noise=0.1,
+                       scene_background=background)
+    image = wfpsf.zeros((side, side))
+    plan.render(image)
+    light = image.pixels + background
+    figure, (left, right) = plt.subplots(1, 2, figsize=(9.4, 4.3), width_ratios=(1.2, 1))
+    picture = show(left, light, extent(side, SCALE), cmap="inferno",
+                   norm=LogNorm(background * 0.98, 2e4))
+    left.set(xlabel="x, arcsec", ylabel="y, arcsec", title="light on 768 x 768 pixels of SCA 7")
+    figure.colorbar(picture, ax=left, label="electrons a pixel")
+    for group in plan.groups:
+        kind = "o" if group["kind"] == "star" else "s"
+        right.scatter(group["flux_from"], group["radius"], 4 + 12 * np.log10(group["sources"]),
+                      marker=kind, color=COLOURS[group["drawing"]])
+    for name, colour in COLOURS.items():
+        right.scatter([], [], color=colour, label=name)
+    right.set(xscale="log", yscale="log", xlabel="flux, electrons",
+              ylabel="half size of the stamp, pixels",
+              title="the plan: stars (round), galaxies (square)")
+    right.legend(fontsize=7)
+    save(figure, "scene.png")
+
+
 if __name__ == "__main__":
-    for draw in (bands, detectors, ipc, contours, sensitivities, spikes):
+    for draw in (bands, detectors, ipc, contours, sensitivities, spikes, scene):
         draw()

@@ -16,9 +16,10 @@ def places(count):
 
 
 catalogue = wfpsf.Catalogue("detector", "electrons")
-catalogue.add_stars(*places(STARS), 10**random.uniform(1, 4, STARS))
+star_flux, galaxy_flux = 10**random.uniform(1, 4, STARS), 10**random.uniform(2, 3, GALAXIES)
+catalogue.add_stars(*places(STARS), star_flux)
 ellipticity, angle = 0.3 * random.random(GALAXIES), 2 * np.pi * random.random(GALAXIES)
-catalogue.add_galaxies(*places(GALAXIES), 10**random.uniform(2, 3, GALAXIES),
+catalogue.add_galaxies(*places(GALAXIES), galaxy_flux,
                        sersic_index=random.choice([1.0, 2.0], GALAXIES),
                        half_light_radius_arcsec=random.uniform(0.2, 0.6, GALAXIES),
                        e1=ellipticity * np.cos(angle), e2=ellipticity * np.sin(angle))
@@ -33,7 +34,7 @@ image = wfpsf.zeros((SIDE, SIDE), dtype=np.float32)
 rendering = scene.render(image)
 print("drawn: %.0f sources with %.0f exact PSFs, %.3g of %.3g electrons"
       % (rendering.drawn, rendering.exact_psfs, image.pixels.sum(dtype=float),
-         scene.truth()["flux"].sum()))
+         star_flux.sum() + galaxy_flux.sum()))
 print("a pixel is off by %.3f electrons at most, %.3f are allowed; %.2f s, %.2f s expected"
       % (rendering.error_estimate, scene.error_allowed, rendering.time, scene.time_expected))
 
