@@ -26,7 +26,7 @@ class Truth {
     // All light that stars give a window. Those that give its pixels little get the far light of the
     // detector's middle, the very far ones none.
     Plane<double> window(std::span<const PlacedSource> stars, const SceneImage &window) const {
-        constexpr double little = 5e-3, farthest = 500; // e-, native pixels
+        constexpr double little = 5e-3, farthest = 300; // e-, native pixels
         Plane<double> image(window.nx, window.ny);
         const double half = static_cast<double>(window.nx) / 2;
         for (const PlacedSource &star : stars) {
@@ -52,10 +52,8 @@ class Truth {
     }
 
     void add_far(const PlacedSource &star, double x, double y, Plane<double> &image) const {
-        for (int64_t j = 0; j < image.ny(); ++j)
-            for (int64_t i = 0; i < image.nx(); ++i)
-                image(i, j) +=
-                    star.flux * far_.at(static_cast<double>(i) - x, static_cast<double>(j) - y);
+        constexpr double floor = 1e-6; // e-
+        far_.add({x, y, star.flux}, far_.nearest(), floor, image.view());
     }
 
     // A tilt of the wavefront brings the window of a star that is far off to where a small field
