@@ -91,7 +91,7 @@ class Truth {
 // Half the windows at random, half beside the brightest stars.
 double largest_error(const SceneOptics &optics, std::vector<PlacedSource> stars,
                      const SceneBudget &budget, const Plane<float> &drawn) {
-    constexpr int windows = 3;
+    constexpr int windows = 2;
     constexpr int64_t size = 16;
     const Truth truth(optics);
     std::ranges::sort(stars, std::ranges::greater(), &PlacedSource::flux);

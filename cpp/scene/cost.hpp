@@ -49,7 +49,7 @@ inline double samples(double radius) {
 // A star's stamp of width^2 pixels from a field, of so many native pixels' radius; and so many
 // samples of fields that are summed first.
 inline double stamp(double width, double radius, double summed) {
-    return 1.2e-6 + 3e-9 * width * (width + 2 * 5 * radius) + 0.3e-9 * summed;
+    return 1.2e-6 + 5e-9 * width * (width + 2 * 5 * radius) + 0.45e-9 * summed;
 }
 
 // Far light on that many pixels, drawn by itself; and from a table, where it is bright enough.

@@ -29,10 +29,6 @@ void expect_within_budgets(const SceneOptics &optics, const std::vector<PlacedSo
         EXPECT_TRUE(plan.meets_budget());
         EXPECT_LE(error, plan.budget().error()) << plan.text();
         EXPECT_LE(error, report.error) << plan.text();
-        std::printf(
-            "PROBE noise %g: error/allowed %.3f expected/allowed %.3f planned %.2f taken %.2f\n",
-            noise, error / plan.budget().error(), report.error / plan.budget().error(),
-            plan.time_s(), report.time_s());
     }
 }
 
