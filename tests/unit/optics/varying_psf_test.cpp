@@ -66,7 +66,7 @@ TEST(VaryingPsf, EveryToleranceIsMetAtPlacesNotSeen) {
             const double worst = worst_error(model, optics, light, 12);
             EXPECT_LE(model.error_estimate(), eps) << sca << band;
             EXPECT_LE(worst, model.error_estimate()) << sca << band << ' ' << eps;
-            EXPECT_LT(model.rank(), eps > 1e-8 ? 60u : 120u);
+            EXPECT_LT(model.rank(), 60u);
         }
     }
 }
