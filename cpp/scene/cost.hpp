@@ -18,7 +18,7 @@ inline double psf(double radius, double eps, double bandwidth) {
     if (bandwidth > 0)
         return digits(eps) * (1.5e-3 + 1.6e-5 * radius * radius);
     const double per_area = radius <= 64 ? 2.7e-6 : 8.5e-6;
-    return 0.7e-3 + per_area * radius * radius;
+    return digits(eps) / 6 * (0.7e-3 + per_area * radius * radius);
 }
 
 // A stamp of `pixels` pixels straight from the diffraction image, beyond the radius made in advance.
@@ -31,11 +31,12 @@ inline double large_stamp(double pixels, double radius, double bandwidth) {
 inline double shared_psf(double radius, double eps, double bandwidth, bool varies) {
     if (!varies)
         return psf(radius, eps, bandwidth);
-    // Far from the core few places are enough.
+    // Far from the core few places are enough: the light that varies falls as the square of the
+    // distance.
     const double exact = eps >= 2e-5 ? 38 : eps >= 1e-8 ? 100 : 300;
-    constexpr double far = 16, core = 16;
-    return 0.7 * (far * psf(radius, eps, bandwidth) +
-                  (exact - far) * psf(std::min(radius, core), eps, bandwidth));
+    constexpr double far = 16;
+    const double core = std::min(radius, std::max(4.0, 16 * std::sqrt(1e-5 / eps)));
+    return 0.7 * (far * psf(radius, eps, bandwidth) + (exact - far) * psf(core, eps, bandwidth));
 }
 
 // Samples of a field that stamps of a radius are drawn from.
@@ -48,7 +49,7 @@ inline double samples(double radius) {
 // A star's stamp of width^2 pixels from a field, of so many native pixels' radius; and so many
 // samples of fields that are summed first.
 inline double stamp(double width, double radius, double summed) {
-    return 1.2e-6 + 3e-9 * width * (width + 2 * 5 * radius) + 0.3e-9 * summed;
+    return 1.2e-6 + 5e-9 * width * (width + 2 * 5 * radius) + 0.45e-9 * summed;
 }
 
 // Far light on that many pixels, drawn by itself; and from a table, where it is bright enough.

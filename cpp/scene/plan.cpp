@@ -196,8 +196,9 @@ void ScenePlan::collect_offers() {
     by_model_.assign(colours_.size(), {});
     for (size_t colour = 0; colour < colours_.size(); ++colour) {
         const ColourFacts &facts = colours_[colour];
-        for (const double eps : {1e-2, 1e-3, 1e-4, 2.5e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10})
-            for (const double radius : {8.0, 16.0, 24.0, 32.0, 48.0, 64.0, 96.0}) {
+        for (const double eps :
+             {1e-2, 1e-3, 1e-4, 2.5e-5, 1e-5, 3e-6, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10})
+            for (const double radius : {8.0, 16.0, 24.0, 32.0, 48.0, 64.0, 96.0, 128.0}) {
                 ModelOffers &offers = by_model_[colour].emplace_back();
                 offers.model = {true, eps, radius,
                                 cost::shared_psf(radius, eps, facts.bandwidth, facts.varies)};
