@@ -149,38 +149,60 @@ void ScenePlan::learn_colours(const SceneOptics &optics) {
     }
 }
 
+Region ScenePlan::galaxy_region() const {
+    return {image_.x0, image_.y0, image_.x0 + image_.native_x(), image_.y0 + image_.native_y()};
+}
+
+// The largest change of a PSF's pixels from the middle of a region to its corners, as a share of
+// the light.
+static double change_over(const Region &region, const SceneOptics &optics, const Light &light) {
+    const PsfSettings settings = probe_settings(optics.settings);
+    constexpr int64_t size = 17;
+    const auto at = [&](double x, double y) {
+        Plane<double> image(size, size);
+        make_psfs(optics.nearest(x, y), {&light, 1}, settings)[0].draw({8, 8, 1}, 1, image.view());
+        return image;
+    };
+    const Plane<double> middle = at((region.x0 + region.x1) / 2, (region.y0 + region.y1) / 2);
+    double change = 0;
+    for (const auto &[u, v] : {std::pair(region.x0, region.y0), std::pair(region.x1, region.y1)}) {
+        const Plane<double> corner = at(u, v);
+        for (int64_t y = 0; y < size; ++y)
+            for (int64_t x = 0; x < size; ++x)
+                change = std::max(change, std::abs(middle(x, y) - corner(x, y)));
+    }
+    return change;
+}
+
+// A change of the PSF adds no light: galaxies wider than it blur it away, but for the cusps of high
+// indices. The smallest of the group is half as wide as the largest.
+static double after_blur(const SourceGroup &group) {
+    const double radius = 0.6 * group.half_light;
+    return group.index <= 1.5 ? 1 / (1 + std::pow(radius, 4)) : 1 / (1 + radius);
+}
+
 // As few as keep the error small that a galaxy's PSF is not that of its place.
 void ScenePlan::choose_galaxy_cells(const SceneOptics &optics) {
     cell_error_.assign(planned_.size(), 0);
     if (!optics.varies)
         return;
-    const PsfSettings settings = probe_settings(optics.settings);
-    std::vector<double> change(colours_.size(), -1); // from the middle to a corner
-    double all = 0;
+    std::vector<double> change(colours_.size(), -1);
+    double squares = 0;
     for (size_t g = 0; g < planned_.size(); ++g) {
         const SourceGroup &group = planned_[g].group;
         if (!group.is_galaxy)
             continue;
         const auto c = static_cast<size_t>(group.colour);
-        if (change[c] < 0) {
-            const Light &light = optics.lights[c];
-            constexpr int64_t size = 17;
-            Plane<double> a(size, size), b(size, size);
-            make_psfs(optics.middle(), {&light, 1}, settings)[0].draw({8, 8, 1}, 1, a.view());
-            make_psfs(optics.nearest(0, 0), {&light, 1}, settings)[0].draw({8, 8, 1}, 1, b.view());
-            for (int64_t y = 0; y < size; ++y)
-                for (int64_t x = 0; x < size; ++x)
-                    change[c] = std::max(change[c], std::abs(a(x, y) - b(x, y)));
-        }
-        // A change of the PSF adds no light: galaxies wider than it blur it away.
-        const double blurred = 1 / (1 + 2 * group.half_light * group.half_light);
-        cell_error_[g] = group.densest * change[c] * blurred;
-        all += cell_error_[g];
+        if (change[c] < 0)
+            change[c] = change_over(galaxy_region(), optics, optics.lights[c]);
+        cell_error_[g] = group.densest * change[c] * after_blur(group);
+        squares += cell_error_[g] * cell_error_[g];
     }
-    constexpr double share = 0.2; // of the budget
+    constexpr double share = 0.4; // of the budget
     constexpr int most = 8;
     galaxy_cells_ = static_cast<int>(
-        std::clamp(std::ceil(all / (share * budget_.error())), 1.0, static_cast<double>(most)));
+        std::clamp(std::ceil(safety_of_squares * std::sqrt(squares) / (share * budget_.error())),
+                   1.0, static_cast<double>(most)));
     for (double &error : cell_error_)
         error /= galaxy_cells_;
 }

@@ -56,7 +56,8 @@ class ScenePlan {
     const ColourFacts &colour(int32_t colour) const {
         return colours_[static_cast<size_t>(colour)];
     }
-    // The detector is cut into as many squares along each axis whose galaxies share a PSF.
+    // The image is cut into as many parts along each axis whose galaxies share a PSF.
+    Region galaxy_region() const;
     int galaxy_cells() const { return galaxy_cells_; }
     const SceneBudget &budget() const { return budget_; }
     const SceneImage &image() const { return image_; }

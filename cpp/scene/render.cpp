@@ -208,7 +208,7 @@ template <class T> class Renderer {
             const double part = (at - low) / (high - low) * cells;
             return static_cast<size_t>(std::clamp(part, 0.0, static_cast<double>(cells - 1)));
         };
-        const Region &region = optics_.region;
+        const Region region = plan_.galaxy_region();
         std::vector<const PlacedSource *> own;
         for (const PlacedSource &source : plan_.sources()) {
             const Drawing drawing = plan_.group_of(source).way.drawing;
@@ -235,18 +235,21 @@ template <class T> class Renderer {
     }
 
     void draw_galaxies(std::span<const PlacedSource *const> galaxies) {
-        double x = 0, y = 0, share = 1;
+        double x = 0, y = 0, brightest = 0;
         for (const PlacedSource *galaxy : galaxies) {
             x += galaxy->x / static_cast<double>(galaxies.size());
             y += galaxy->y / static_cast<double>(galaxies.size());
-            share = std::min(share, plan_.group_of(*galaxy).way.eps);
+            brightest = std::max(brightest, std::abs(galaxy->flux));
         }
         const Light &light = optics_.lights[static_cast<size_t>(galaxies[0]->colour)];
-        const PsfSettings s = settings(std::clamp(share, 1e-8, 1e-3), 8);
+        // An OTF of 1e-3 is off by less than 1e-6 of a galaxy's light in any pixel.
+        constexpr double of_light = 1e-3;
+        const double eps =
+            std::clamp(0.05 * plan_.budget().error() / (of_light * brightest), 1e-5, 1e-3);
+        const PsfSettings s = settings(eps / 10, 8);
         const Psf psf = std::move(make_psfs(optics_.nearest(x, y), {&light, 1}, s)[0]);
         ++report_.exact_psfs;
-        const Otf otf(psf.components(), s.pixel_scale, s.mirrored, std::clamp(share, 1e-5, 1e-3),
-                      s.blur, s.pixel_response);
+        const Otf otf(psf.components(), s.pixel_scale, s.mirrored, eps, s.blur, s.pixel_response);
         report_.drawn += static_cast<int64_t>(galaxies.size());
         on_rows(0, static_cast<double>(image_.ny), [&](int64_t first_row, int64_t last_row) {
             SersicProfiles profiles;

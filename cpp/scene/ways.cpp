@@ -11,6 +11,9 @@ namespace wfpsf {
 
 namespace {
 
+// Errors below that share of the budget need not become smaller.
+constexpr double negligible = 0.01;
+
 // Stamps' radii that are tried, native pixels.
 std::vector<double> radii(double largest) {
     std::vector<double> all;
@@ -95,6 +98,8 @@ void Ways::with_and_without_far(const Way &way, double time_s, double psf_error,
         own ? 0 : colour_.far_varies * colour_.profile.brightest_beyond(way.radius);
     const double off = far.error(way.radius, group_.brightest, budget_.variance) + varies;
     for (const FarReach::Step &step : far.steps()) {
+        if (2 * group_.densest * step.floor < negligible * budget_.error())
+            break;
         // A table ends somewhere; drawn by itself, far light goes on.
         const double end =
             own ? std::min(step.radius, group_.reach) : std::min(step.radius, Way::largest_table);
@@ -146,6 +151,8 @@ void Ways::of_shared(const SharedModel &model, const Take &take) const {
 void Ways::of_own(const Take &take) const {
     for (const double radius : radii(group_.reach))
         for (double eps = 1e-4; eps > 1e-11; eps /= 10) {
+            if (10 * group_.densest * colour_.profile.peak() * eps < negligible * budget_.error())
+                break;
             const double made = std::min(radius, Way::largest_field);
             double time = cost::psf(made, eps, colour_.bandwidth);
             if (radius > Way::largest_field)
@@ -161,6 +168,8 @@ void Ways::of_fourier(double place_error, const Take &take) const {
     if (!group_.is_galaxy || image_.oversampling != 1)
         return;
     for (double share = 1e-2; share > 1e-10; share /= 2) {
+        if (2 * group_.densest * share < negligible * budget_.error())
+            break;
         const double radius = group_.half_light * (2 + group_.index * -std::log10(share));
         // Light below the tolerance is left out: no more in all than on as large an area as is
         // drawn.
