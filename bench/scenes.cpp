@@ -162,8 +162,8 @@ Case stars_case(const Stars &field, double noise, double target_s, bool with_err
 
 std::vector<Case> scene_cases() {
     return {stars_case({100000, 24, 28}, 0.01, 5, true), stars_case({100000, 20, 28}, 0.1, 0, true),
-            stars_case({100000, 20, 28}, 0.03, 0, true), stars_case({100000, 16, 28}, 0.1, 0, true),
-            stars_case({10000000, 24, 28}, 0.1, 0, false)};
+            stars_case({100000, 20, 28}, 0.03, 0, true),
+            stars_case({10000000, 26, 28}, 1, 0, false)};
 }
 
 } // namespace wfpsf::bench
