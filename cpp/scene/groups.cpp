@@ -34,18 +34,19 @@ class Tiles {
         return static_cast<size_t>(tile_of(s.y - y0_, ny_) * nx_ + tile_of(s.x - x0_, nx_));
     }
 
-    // Cells of SourceGroup::cell pixels within a tile.
-    static constexpr int64_t cells_a_side = 4, cells = cells_a_side * cells_a_side;
-    size_t cell(const PlacedSource &s) const {
+    // Cells of so many native pixels within a tile.
+    template <int64_t width> static constexpr int64_t cells = (64 / width) * (64 / width);
+    template <int64_t width> size_t cell(const PlacedSource &s) const {
+        constexpr int64_t a_side = 64 / width;
         const auto along = [](double at) {
-            const auto k = static_cast<int64_t>(std::floor(at / SourceGroup::cell)) % cells_a_side;
-            return k < 0 ? k + cells_a_side : k;
+            const auto k = static_cast<int64_t>(std::floor(at / width)) % a_side;
+            return k < 0 ? k + a_side : k;
         };
-        return static_cast<size_t>(along(s.y - y0_) * cells_a_side + along(s.x - x0_));
+        return static_cast<size_t>(along(s.y - y0_) * a_side + along(s.x - x0_));
     }
 
   private:
-    static constexpr double side = SourceGroup::cell * cells_a_side; // native pixels
+    static constexpr double side = 64; // native pixels
 
     static int64_t tiles(double pixels) {
         return static_cast<int64_t>(std::ceil(pixels / side)) + 2;
@@ -95,11 +96,14 @@ SourceGroups::SourceGroups(std::vector<PlacedSource> &sources, std::span<const G
         colours = std::max(colours, source.colour + 1);
     at_.assign(static_cast<size_t>(colours) * octaves * kinds, -1);
     size_t tile = 0;
-    std::vector<std::array<double, Tiles::cells>> in_cells; // of the present tile, by group
+    constexpr int64_t small = 4; // native pixels
+    std::vector<std::array<double, Tiles::cells<SourceGroup::cell>>> in_cells;
+    std::vector<std::array<double, Tiles::cells<small>>> in_small; // of the present tile, by group
     for (const PlacedSource &source : sources) {
         if (tiles.number(source) != tile) {
             tile = tiles.number(source);
             in_cells.assign(groups_.size(), {});
+            in_small.assign(groups_.size(), {});
         }
         int32_t &at = at_[key(source)];
         if (at < 0) {
@@ -108,6 +112,7 @@ SourceGroups::SourceGroups(std::vector<PlacedSource> &sources, std::span<const G
                                .is_galaxy = source.shape != PlacedSource::star,
                                .octave = octave_of(source.flux)});
             in_cells.emplace_back();
+            in_small.emplace_back();
         }
         SourceGroup &group = groups_[static_cast<size_t>(at)];
         const double flux = std::abs(source.flux);
@@ -115,9 +120,12 @@ SourceGroups::SourceGroups(std::vector<PlacedSource> &sources, std::span<const G
         group.flux += flux;
         group.brightest = std::max(group.brightest, flux);
         group.reach = std::max(group.reach, reach_of(source, image));
-        double &cell = in_cells[static_cast<size_t>(at)][tiles.cell(source)];
+        double &cell = in_cells[static_cast<size_t>(at)][tiles.cell<SourceGroup::cell>(source)];
         cell += flux;
-        group.densest = std::max(group.densest, cell);
+        group.crowded = std::max(group.crowded, cell);
+        double &spot = in_small[static_cast<size_t>(at)][tiles.cell<small>(source)];
+        spot += flux;
+        group.densest = std::max(group.densest, spot);
         if (group.is_galaxy) {
             const GalaxyShape &shape = shapes_[static_cast<size_t>(source.shape)];
             const double radius = shape.half_light_radius_arcsec / pixel_scale_arcsec_;
@@ -129,6 +137,10 @@ SourceGroups::SourceGroups(std::vector<PlacedSource> &sources, std::span<const G
                                              (1 + e2) / (1 - e2));
         }
     }
+    // Cells cut clusters up: then the large ones tell.
+    for (SourceGroup &group : groups_)
+        if (group.densest > 2 * group.brightest)
+            group.densest = group.crowded;
 }
 
 size_t SourceGroups::key(const PlacedSource &source) const {

@@ -28,8 +28,11 @@ struct SourceGroup {
     int64_t count = 0;
     double flux = 0; // of all, e-
     double brightest = 0;
-    double densest = 0; // the largest flux in any square cell of `cell` native pixels
-    double reach = 0;   // from any of them to the farthest pixel along an axis, native pixels
+    double crowded = 0; // the largest flux in any square cell of `cell` native pixels
+    // The largest flux whose spikes fall on each other: in any small cell; where several sources
+    // share one, as in clusters, as much as `crowded`.
+    double densest = 0;
+    double reach = 0; // from any of them to the farthest pixel along an axis, native pixels
     // Of galaxies: the largest mean square radius and half-light radius, native pixels, and the
     // highest Sersic index.
     double mean_square = 0, half_light = 0, index = 0;

@@ -66,7 +66,9 @@ double Ways::mean(double light, double cut) const {
 PixelError Ways::left_out(const Way &way) const {
     if (way.radius >= group_.reach)
         return {};
-    const double local = group_.densest * cut(way.radius);
+    // Spikes that fall on each other, and the mean of what others near by leave out.
+    const double local = group_.densest * cut(way.radius) +
+                         (group_.crowded - group_.densest) * colour_.profile.mean_at(way.radius);
     const double light = colour_.profile.beyond(way.radius);
     if (!way.is_smooth_beyond())
         return {local, mean(light, cut(way.radius))};
@@ -76,7 +78,7 @@ PixelError Ways::left_out(const Way &way) const {
         squares += std::pow(colour_.profile.mean_at(r), 2) * 8 * r * 0.1 * r;
     constexpr double deviations = 2; // of the densest cell
     const double scatter =
-        deviations * std::sqrt(group_.densest * group_.brightest * squares) / SourceGroup::cell;
+        deviations * std::sqrt(group_.crowded * group_.brightest * squares) / SourceGroup::cell;
     return {std::hypot(local, scatter),
             LightProfile::mean_varies * mean(light, cut(way.radius)) +
                 mean(colour_.profile.beyond(FaintLight::reach), cut(FaintLight::reach))};
