@@ -168,7 +168,7 @@ def spikes():
 
 def scene():
     """A part of a detector with stars and galaxies, and how the plan drew which."""
-    side, stars, galaxies = 768, 3000, 1500
+    first, side, stars, galaxies = 1600, 512, 1500, 600
     random = np.random.default_rng(7)
     roman = wfpsf.Instrument("roman-c9")
     catalogue = wfpsf.Catalogue("detector", "ab_magnitude")
@@ -177,15 +177,16 @@ def scene():
     magnitude = 27 + np.log10(least + random.random(stars) * (1 - least)) / 0.35
     magnitude[:3] = 15.5, 16.5, 18
     x, y = side * random.random((2, stars + galaxies))
-    x[:3], y[:3] = (300, 610, 130), (420, 180, 90)
+    x[:3], y[:3] = (200, 410, 90), (280, 120, 60)
+    x, y = x + first, y + first
     catalogue.add_stars(x[:stars], y[:stars], magnitude)
     shear, angle = 0.3 * random.random(galaxies), 2 * np.pi * random.random(galaxies)
-    catalogue.add_galaxies(x[stars:], y[stars:], random.uniform(22, 26, galaxies),
+    catalogue.add_galaxies(x[stars:], y[stars:], random.uniform(23, 26, galaxies),
                            sersic_index=random.choice([1.0, 4.0], galaxies),
                            half_light_radius_arcsec=random.uniform(0.15, 0.6, galaxies),
                            e1=shear * np.cos(angle), e2=shear * np.sin(angle))
     background = 40
-    plan = wfpsf.Scene(roman, "J129", 7, catalogue, (side, side), 1600, 1600, scene_noise=0.1,
+    plan = wfpsf.Scene(roman, "J129", 7, catalogue, (side, side), first, first, scene_noise=0.3,
                        scene_background=background)
     image = wfpsf.zeros((side, side))
     plan.render(image)
@@ -193,7 +194,7 @@ def scene():
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.4, 4.3), width_ratios=(1.2, 1))
     picture = show(left, light, extent(side, SCALE), cmap="inferno",
                    norm=LogNorm(background * 0.98, 2e4))
-    left.set(xlabel="x, arcsec", ylabel="y, arcsec", title="light on 768 x 768 pixels of SCA 7")
+    left.set(xlabel="x, arcsec", ylabel="y, arcsec", title="light on 512 x 512 pixels of SCA 7")
     figure.colorbar(picture, ax=left, label="electrons a pixel")
     for group in plan.groups:
         kind = "o" if group["kind"] == "star" else "s"
