@@ -39,7 +39,8 @@ std::optional<FarLight> far_light_of(const Optics &optics, const Light &light,
 }
 
 FarReach::FarReach(const FarLight &light) : nearest_(light.nearest()) {
-    for (double floor = light.brightest_beyond(nearest_); floor > 1e-14; floor /= 2) {
+    double floor = light.brightest_beyond(nearest_);
+    while (floor > 1e-14) {
         const double radius = radius_of(light, floor);
         const double halo = std::min(light.halo_radius(floor), radius);
         double width = 0;
@@ -50,11 +51,15 @@ FarReach::FarReach(const FarLight &light) : nearest_(light.nearest()) {
                           std::numbers::pi * halo * halo + 2 * width * (radius - nearest_)});
         if (radius >= farthest)
             break;
+        floor /= 2;
     }
-    for (double r = nearest_; r < farthest; r *= std::exp2(1 / rings_per_octave))
+    double r = nearest_;
+    while (r < farthest) {
         rings_.push_back({light.brightest_beyond(r),
                           std::max(light.relative_error(r).spikes * light.brightest_beyond(r),
                                    light.relative_error(r).halo * light.halo_beyond(r))});
+        r *= std::exp2(1 / rings_per_octave);
+    }
 }
 
 const FarReach::Ring &FarReach::ring(double radius) const {

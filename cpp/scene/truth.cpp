@@ -126,7 +126,8 @@ std::vector<SourceTruth> truth_of(const SceneOptics &optics, const ScenePlan &pl
                 std::clamp(source.y, region.y0, region.y1));
             // The source in the middle native pixel, where it stands in its own.
             const int64_t side = side_of(source, plan, optics.pixel_scale_arcsec);
-            const auto half = static_cast<double>(side / 2);
+            const int64_t middle = side / 2;
+            const auto half = static_cast<double>(middle);
             const double x0 = std::round(source.x) - half, y0 = std::round(source.y) - half;
             const Plane<double> image = image_of(source, psf, optics, plan, side, x0, y0);
             truths[static_cast<size_t>(i)] = measuring.of(source, image, x0, y0);

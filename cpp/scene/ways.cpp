@@ -14,11 +14,25 @@ namespace {
 // Errors below that share of the budget need not become smaller.
 constexpr double negligible = 0.01;
 
+// from, from / factor, ... down to `to`.
+std::vector<double> falling(double from, double to, double factor) {
+    std::vector<double> all;
+    double value = from;
+    while (value >= to) {
+        all.push_back(value);
+        value /= factor;
+    }
+    return all;
+}
+
 // Stamps' radii that are tried, native pixels.
 std::vector<double> radii(double largest) {
     std::vector<double> all;
-    for (double r = 2; r < largest; r = std::ceil(r * 1.2))
+    double r = 2;
+    while (r < largest) {
         all.push_back(r);
+        r = std::ceil(r * 1.2);
+    }
     all.push_back(largest);
     return all;
 }
@@ -74,8 +88,11 @@ PixelError Ways::left_out(const Way &way) const {
         return {local, mean(light, cut(way.radius))};
     // What scatters is what many sources that are not in that cell leave out here.
     double squares = 0;
-    for (double r = way.radius + 1; r <= FaintLight::reach; r *= 1.1)
+    double r = way.radius + 1;
+    while (r <= FaintLight::reach) {
         squares += std::pow(colour_.profile.mean_at(r), 2) * 8 * r * 0.1 * r;
+        r *= 1.1;
+    }
     constexpr double deviations = 2; // of the densest cell
     const double scatter =
         deviations * std::sqrt(group_.crowded * group_.brightest * squares) / SourceGroup::cell;
@@ -141,8 +158,7 @@ double Ways::model_samples(double radius, double left_out) const {
 
 void Ways::of_shared(const SharedModel &model, const Take &take) const {
     const double peak = colour_.profile.peak();
-    for (double left_out = colour_.varies ? 1e-2 : model.eps; left_out >= model.eps / 2;
-         left_out /= 4)
+    for (const double left_out : falling(colour_.varies ? 1e-2 : model.eps, model.eps / 2, 4))
         for (const double radius : radii(std::min(model.radius, group_.reach)))
             with_and_without_far({Drawing::shared, radius, model.eps, peak * left_out, 0},
                                  count() * cost::stamp(width(radius), radius,
@@ -152,7 +168,7 @@ void Ways::of_shared(const SharedModel &model, const Take &take) const {
 
 void Ways::of_own(const Take &take) const {
     for (const double radius : radii(group_.reach))
-        for (double eps = 1e-4; eps > 1e-11; eps /= 10) {
+        for (const double eps : falling(1e-4, 1e-11, 10)) {
             if (10 * group_.densest * colour_.profile.peak() * eps < negligible * budget_.error())
                 break;
             const double made = std::min(radius, Way::largest_field);
@@ -169,7 +185,7 @@ void Ways::of_own(const Take &take) const {
 void Ways::of_fourier(double place_error, const Take &take) const {
     if (!group_.is_galaxy || image_.oversampling != 1)
         return;
-    for (double share = 1e-2; share > 1e-10; share /= 2) {
+    for (const double share : falling(1e-2, 1e-10, 2)) {
         if (2 * group_.densest * share < negligible * budget_.error())
             break;
         const double radius = group_.half_light * (2 + group_.index * -std::log10(share));
