@@ -6,7 +6,7 @@
 #include "harness.hpp"
 #include "instrument/instrument.hpp"
 #include "optics/psf.hpp"
-#include "oracles/psf_oracle.hpp"
+#include "oracles/tilted_star.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -16,39 +16,13 @@ namespace wfpsf::bench {
 
 namespace {
 
-constexpr double pixel_scale = 0.11 * oracle::pi / 180 / 3600;
-constexpr double reference = 1293e-9, radius = 1.18;
-
-struct Source {
-    const Instrument &instrument;
-    std::shared_ptr<const Aperture> aperture;
-    Light light;
-
-    Source(const char *name, const char *band)
-        : instrument(Instrument::get(name)),
-          aperture(std::visit(
-              [](const auto &pupil) {
-                  return std::shared_ptr<const Aperture>(make_aperture(pupil));
-              },
-              instrument.pupil(7, band))),
-          light(detected_light(instrument.band(band), black_body_sed(5000))) {}
-
-    // As seen (x, y) native pixels from the star.
-    Optics optics(double x, double y) const {
-        const auto zernikes = instrument.zernikes(7);
-        std::vector<double> waves(zernikes.begin(), zernikes.end());
-        waves[0] = 0;
-        waves[1] = x * pixel_scale * radius / (2 * reference);
-        waves[2] = y * pixel_scale * radius / (2 * reference);
-        return {aperture, Wavefront(waves, radius), reference};
-    }
-};
-
-const PsfSettings settings{
-    .wavelength = reference, .pixel_scale = pixel_scale, .eps = 1e-5, .radius = 10.5};
+const PsfSettings settings{.wavelength = oracle::reference_wavelength,
+                           .pixel_scale = oracle::native_pixel,
+                           .eps = 1e-5,
+                           .radius = 10.5};
 
 // The largest error on the brightest spike, as a share of its brightest pixel there.
-double spike_error(const Source &source, const FarLight &far) {
+double spike_error(const oracle::TiltedStar &source, const FarLight &far) {
     const auto spikes = far.spikes(128, 1e-30);
     const auto [x, y] = [&] {
         double most = 0, best_x = 0, best_y = 0;
@@ -82,7 +56,7 @@ Case making_case(const char *name, const char *band) {
     char title[80];
     std::snprintf(title, sizeof title, "far light of a star made, %s %s", name, band);
     return {title, "largest error on a spike 128 pixels off / its peak there", 0, 0, [=] {
-                const Source source(name, band);
+                const oracle::TiltedStar source(name, band);
                 const Optics optics = source.optics(0, 0);
                 const FarLight far(optics, source.light, settings);
                 Measured m;
@@ -97,7 +71,7 @@ Case drawing_case(const char *name, const char *band, double floor) {
     std::snprintf(title, sizeof title, "far light, 4088^2, %s %s, 1e8 e, floor %g e", name, band,
                   floor);
     return {title, "largest light left out beyond 64 pixels, e", 0, 0, [=] {
-                const Source source(name, band);
+                const oracle::TiltedStar source(name, band);
                 const FarLight far(source.optics(0, 0), source.light, settings);
                 const Star star{2043.3, 2043.7, flux};
                 Plane<float> image(4088, 4088), all(4088, 4088);

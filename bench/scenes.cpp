@@ -4,6 +4,7 @@
 #include "unit/scene/scenes.hpp"
 
 #include "harness.hpp"
+#include "oracles/tilted_star.hpp"
 #include "scene/render.hpp"
 
 #include <cmath>
@@ -25,8 +26,8 @@ class Truth {
         : optics_(optics), little_(little),
           far_(optics.middle(), optics.lights[0], settings(1e-4, 32)) {}
 
-    // All light that stars give a window. Those that give its pixels little get the far light of the
-    // detector's middle, the very far ones none.
+    // All light that stars give a window. Those that give its pixels little get the far light of
+    // the detector's middle, the very far ones none.
     Plane<double> window(std::span<const PlacedSource> stars, const SceneImage &window) const {
         constexpr double farthest = 300; // native pixels
         Plane<double> image(window.nx, window.ny);
@@ -71,15 +72,9 @@ class Truth {
         }
         const Instrument &roman = Instrument::get("roman-c9");
         const Region &region = optics_.region;
-        std::vector<double> waves = roman.zernikes(7, std::clamp(star.x, region.x0, region.x1),
-                                                   std::clamp(star.y, region.y0, region.y1));
-        const Optics middle = optics_.middle();
-        const double radius = roman.diameter_m() / 2;
-        const double a_pixel = optics_.settings.pixel_scale * radius / (2 * middle.wavelength);
-        waves[0] = 0;
-        waves[1] = dx * a_pixel;
-        waves[2] = dy * a_pixel;
-        const Optics tilted{middle.aperture, Wavefront(waves, radius), middle.wavelength};
+        const std::vector<double> waves = roman.zernikes(
+            7, std::clamp(star.x, region.x0, region.x1), std::clamp(star.y, region.y0, region.y1));
+        const Optics tilted = oracle::tilted(optics_.middle().aperture, waves, dx, dy);
         const double eps = std::clamp(error / (0.2 * star.flux), 1e-9, 1e-4);
         const Psf psf =
             std::move(make_psfs(tilted, {&optics_.lights[0], 1}, settings(eps, reach + 1))[0]);

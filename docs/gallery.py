@@ -13,6 +13,16 @@ COLOURS = {"shared": "tab:blue", "own": "tab:red", "fourier": "tab:green",
            "fourier_own": "tab:olive"}
 
 
+def finish(figure, panels, picture, name):
+    """Labels and writes a table of PSFs."""
+    for axes in panels[-1]:
+        axes.set_xlabel("x, arcsec")
+    for axes in panels[:, 0]:
+        axes.set_ylabel("y, arcsec")
+    figure.colorbar(picture, ax=panels, label="in units of the peak", shrink=0.9)
+    save(figure, name)
+
+
 def bands():
     """PSFs of all Roman bands at SCA 7."""
     roman = wfpsf.Instrument("roman-c9")
@@ -26,12 +36,7 @@ def bands():
         shown, norm = logarithmic(psf.draw(128, 128, oversampling=8).pixels, 4)
         picture = show(axes, shown, extent(16, SCALE), norm=norm, cmap="inferno")
         axes.set_title(f"{name}, {psf.wavelength_nm:.0f} nm")
-    for axes in panels[-1]:
-        axes.set_xlabel("x, arcsec")
-    for axes in panels[:, 0]:
-        axes.set_ylabel("y, arcsec")
-    figure.colorbar(picture, ax=panels, label="in units of the peak", shrink=0.9)
-    save(figure, "bands.png")
+    finish(figure, panels, picture, "bands.png")
 
 
 def detectors():
@@ -43,12 +48,7 @@ def detectors():
         shown, norm = logarithmic(psf.draw(60, 60, oversampling=6).pixels, 3)
         picture = show(axes, shown, extent(10, SCALE), norm=norm, cmap="inferno")
         axes.set_title(f"SCA {sca}")
-    for axes in panels[-1]:
-        axes.set_xlabel("x, arcsec")
-    for axes in panels[:, 0]:
-        axes.set_ylabel("y, arcsec")
-    figure.colorbar(picture, ax=panels, label="in units of the peak", shrink=0.9)
-    save(figure, "detectors.png")
+    finish(figure, panels, picture, "detectors.png")
 
 
 def ipc():

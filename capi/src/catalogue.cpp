@@ -26,8 +26,8 @@ wfpsf_status wfpsf_catalogue_create(int32_t positions, int32_t brightness, wfpsf
             fail(WFPSF_ERROR_ARGUMENT, "positions = %d: must be a WFPSF_POSITIONS_*", positions);
         if (brightness != WFPSF_BRIGHTNESS_ELECTRONS && brightness != WFPSF_BRIGHTNESS_AB_MAGNITUDE)
             fail(WFPSF_ERROR_ARGUMENT, "brightness = %d: must be a WFPSF_BRIGHTNESS_*", brightness);
-        *out = new wfpsf_catalogue{
-            Catalogue(static_cast<Positions>(positions), static_cast<Brightness>(brightness))};
+        *out = new wfpsf_catalogue{Catalogue(static_cast<PositionKind>(positions),
+                                             static_cast<BrightnessKind>(brightness))};
     });
 }
 

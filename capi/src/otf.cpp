@@ -40,10 +40,8 @@ wfpsf_status wfpsf_otf_create(const wfpsf_psf *psf, const wfpsf_options *options
         require_pointer(out, "out");
         *out = nullptr;
         require_pointer(psf, "psf");
-        const PsfSettings &settings = psf->psf.settings();
         const double eps = option(options, WFPSF_OPTION_EPS);
-        *out = new wfpsf_otf{Otf(psf->psf.components(), settings.pixel_scale, settings.mirrored,
-                                 eps, settings.blur, settings.pixel_response)};
+        *out = new wfpsf_otf{psf->psf.otf(eps)};
         return certify((*out)->otf.error_estimate(), eps);
     });
 }

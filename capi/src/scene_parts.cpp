@@ -49,7 +49,7 @@ SceneOptics scene_optics(const wfpsf_instrument &instrument, const char *band, i
 
 double zero_flux_of(const Catalogue &catalogue, const Instrument &instrument, const char *band,
                     const wfpsf_options *options) {
-    if (catalogue.brightness() != Brightness::ab_magnitude)
+    if (catalogue.brightness() != BrightnessKind::ab_magnitude)
         return 1;
     return ab_zero_rate(instrument, band) * exposure_time(instrument, options);
 }

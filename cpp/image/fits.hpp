@@ -41,8 +41,8 @@ Image read_fits(const std::string &path, const FitsHdu &hdu = {},
 void write_fits(const std::string &path, const Image &image, bool overwrite,
                 const std::vector<FitsKeyword> &keywords = {});
 
-// The text of a keyword in the primary header of a file that write_fits() made, not compressed; none
-// if the file or the keyword is not there.
+// The text of a keyword in the primary header of a file that write_fits() made, not compressed;
+// none if the file or the keyword is not there.
 std::optional<std::string> read_fits_text(const std::string &path, const std::string &name);
 
 } // namespace wfpsf

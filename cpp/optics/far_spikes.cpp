@@ -18,7 +18,7 @@ namespace {
 using Complex = std::complex<double>;
 constexpr double pi = std::numbers::pi;
 
-// ------------------------------------------------------------------------------------ interpolation
+// ----------------------------------------------------------------------------------- interpolation
 
 // Lagrange's cubic through the samples -1, 0, 1, 2, at 0 <= s < 1.
 [[gnu::always_inline]] inline double cubic(double s, double before, double here, double next,

@@ -46,6 +46,11 @@ std::vector<Component> Psf::components() const {
     return parts;
 }
 
+Otf Psf::otf(double eps) const {
+    return {components(), settings_.pixel_scale, settings_.mirrored,
+            eps,          settings_.blur,        settings_.pixel_response};
+}
+
 template <class T>
 double Psf::draw(const Star &star, int64_t oversampling, View<T> image, Drawing drawing,
                  const Manners &manners) const {

@@ -7,6 +7,7 @@
 #include "optics/component.hpp"
 #include "optics/field.hpp"
 #include "optics/large_stamp.hpp"
+#include "optics/otf.hpp"
 
 #include <span>
 #include <vector>
@@ -48,6 +49,9 @@ class Psf {
     std::vector<Field> changes(std::span<const Wavefront> by, double radius) const {
         return make_field_changes(field_, optics_, by, settings_, radius);
     }
+
+    // Its transfer function: see Otf.
+    Otf otf(double eps) const;
 
     const PsfSettings &settings() const { return settings_; }
     double lit_area() const { return optics_.aperture->area(); } // m^2

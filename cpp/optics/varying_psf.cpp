@@ -2,6 +2,7 @@
 #include "optics/varying_psf.hpp"
 
 #include "error/error.hpp"
+#include "image/sampling.hpp"
 #include "numerics/dispatch.hpp"
 #include "optics/add_stars.hpp"
 
@@ -302,11 +303,10 @@ void VaryingPsf::add(std::span<const Star> stars, double x0, double y0, int64_t 
                      View<T> image, int threads) const {
     const auto n = static_cast<double>(oversampling);
     const double radius = settings_.radius * n;
-    const auto native = [n](double sample) { return (sample - (n - 1) / 2) / n; };
     // Nothing is added unless all have a PSF.
     for (size_t i = 0; i < stars.size(); ++i) {
         const Star &star = stars[i];
-        const double x = x0 + native(star.x), y = y0 + native(star.y);
+        const double x = x0 + native_of(star.x, n), y = y0 + native_of(star.y, n);
         const bool seen = star.x >= -radius && star.x <= static_cast<double>(image.nx) + radius &&
                           star.y >= -radius && star.y <= static_cast<double>(image.ny) + radius;
         if (seen && !is_inside(x, y))
@@ -337,7 +337,6 @@ void VaryingPsf::add_rows(std::span<const Star> stars, DetailOf detail_of, doubl
                           int64_t oversampling, View<T> image, int64_t first_row,
                           int64_t last_row) const {
     const auto n = static_cast<double>(oversampling);
-    const auto native = [n](double sample) { return (sample - (n - 1) / 2) / n; };
     Field field = plain_;
     std::vector<double> weight(mode_.size());
     std::vector<Window> windows; // of the modes
@@ -347,7 +346,7 @@ void VaryingPsf::add_rows(std::span<const Star> stars, DetailOf detail_of, doubl
         [&](size_t i) -> const Field & {
             const StarDetail &detail = detail_of(i);
             const std::span first(weight.data(), detail.field_radii.size());
-            weights(x0 + native(stars[i].x), y0 + native(stars[i].y), first);
+            weights(x0 + native_of(stars[i].x, n), y0 + native_of(stars[i].y, n), first);
             windows.clear();
             for (const double radius : detail.field_radii)
                 windows.push_back(reach_of(field, radius, 1));

@@ -20,8 +20,8 @@ struct Region {
     double x0, y0, x1, y1;
 };
 
-// How much of a PSF a star needs: the light within `radius` native pixels of it along both axes, and
-// each of the fields that PSFs are sums of within a radius of its own; of those after, nothing.
+// How much of a PSF a star needs: the light within `radius` native pixels of it along both axes,
+// and each of the fields that PSFs are sums of within a radius of its own; of those after, nothing.
 struct StarDetail {
     double radius;
     std::span<const double> field_radii;

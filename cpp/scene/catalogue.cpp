@@ -3,6 +3,7 @@
 
 #include "error/error.hpp"
 #include "instrument/band.hpp"
+#include "scene/sersic.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -21,7 +22,8 @@ void require_range(const char *name, size_t i, double value, double low, double 
 void check_shapes(std::span<const GalaxyShape> shapes) {
     for (size_t i = 0; i < shapes.size(); ++i) {
         const GalaxyShape &s = shapes[i];
-        require_range("sersic_index", i, s.sersic_index, 0.3, 6.2);
+        require_range("sersic_index", i, s.sersic_index, Sersic::smallest_index,
+                      Sersic::largest_index);
         require_range("half_light_radius", i, s.half_light_radius_arcsec, 1e-6, 1e3);
         require_range("e1", i, s.e1, -1, 1);
         require_range("e2", i, s.e2, -1, 1);
@@ -40,8 +42,8 @@ int32_t Catalogue::add_colour(SourceColour colour) {
 
 void Catalogue::check(const Columns &columns) const {
     constexpr double far = 1e9;
-    const bool on_sky = positions_ == Positions::sky;
-    const bool magnitudes = brightness_ == Brightness::ab_magnitude;
+    const bool on_sky = positions_ == PositionKind::sky;
+    const bool magnitudes = brightness_ == BrightnessKind::ab_magnitude;
     const auto colours = static_cast<double>(std::max<size_t>(colours_.size(), 1));
     for (size_t i = 0; i < columns.x.size(); ++i) {
         require_range("x", i, columns.x[i], on_sky ? -1e6 : -far, on_sky ? 1e6 : far);
@@ -87,7 +89,7 @@ std::vector<PlacedSource> Catalogue::placed(const Observation *observation, int 
                                             double zero_flux) const {
     std::vector<double> sky_x, sky_y;
     std::span<const double> x = x_, y = y_;
-    if (positions_ == Positions::sky) {
+    if (positions_ == PositionKind::sky) {
         if (!observation)
             fail(WFPSF_ERROR_ARGUMENT, "observation = NULL: positions on the sky need one");
         sky_x.resize(size());
@@ -97,7 +99,7 @@ std::vector<PlacedSource> Catalogue::placed(const Observation *observation, int 
         x = sky_x;
         y = sky_y;
     }
-    const bool magnitudes = brightness_ == Brightness::ab_magnitude;
+    const bool magnitudes = brightness_ == BrightnessKind::ab_magnitude;
     std::vector<PlacedSource> sources;
     sources.reserve(size());
     for (size_t i = 0; i < size(); ++i) {

@@ -15,8 +15,11 @@
 
 namespace wfpsf {
 
-enum class Positions : int32_t { detector = 1, sky = 2 }; // pixels, or degrees of RA and Dec
-enum class Brightness : int32_t { electrons = 1, ab_magnitude = 2 }; // in the exposure; in the band
+enum class PositionKind : int32_t { detector = 1, sky = 2 }; // pixels, or degrees of RA and Dec
+enum class BrightnessKind : int32_t {
+    electrons = 1,
+    ab_magnitude = 2
+}; // in the exposure; in the band
 
 // Sources that share a spectrum: one wavelength, 0 for the band's effective one, or an SED.
 struct SourceColour {
@@ -42,7 +45,7 @@ struct PlacedSource {
 
 class Catalogue {
   public:
-    Catalogue(Positions positions, Brightness brightness)
+    Catalogue(PositionKind positions, BrightnessKind brightness)
         : positions_(positions), brightness_(brightness) {}
 
     // Their numbers are 0, 1, ... Without any, all sources are of one colour: the band's effective
@@ -60,8 +63,8 @@ class Catalogue {
     void add_galaxies(const Columns &galaxies, std::span<const GalaxyShape> shapes);
 
     size_t size() const { return x_.size(); }
-    Positions positions() const { return positions_; }
-    Brightness brightness() const { return brightness_; }
+    PositionKind positions() const { return positions_; }
+    BrightnessKind brightness() const { return brightness_; }
     std::span<const SourceColour> colours() const { return colours_; }
     std::span<const GalaxyShape> shapes() const { return shapes_; }
 
@@ -76,16 +79,16 @@ class Catalogue {
     void check(const Columns &columns) const;
     void append(const Columns &columns);
 
-    Positions positions_;
-    Brightness brightness_;
+    PositionKind positions_;
+    BrightnessKind brightness_;
     std::vector<SourceColour> colours_;
     std::vector<GalaxyShape> shapes_;
     std::vector<double> x_, y_, bright_;
     std::vector<int32_t> colour_, shape_;
 };
 
-// Electrons a second that a source of AB magnitude 0 gives in a band: 3631 Jy through the collecting
-// area and the throughput. An instrument without "collecting_area": WFPSF_ERROR_UNKNOWN_NAME.
+// Electrons a second that a source of AB magnitude 0 gives in a band: 3631 Jy through the
+// collecting area and the throughput. An instrument without "collecting_area": WFPSF_ERROR_UNKNOWN_NAME.
 double ab_zero_rate(const Instrument &instrument, std::string_view band);
 
 } // namespace wfpsf

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What drawing takes, in seconds of one thread: measured on one kind of machine (docs/scene.md), good
-// to a factor of two there. Plans compare ways with each other; only ratios matter to the choice.
+// What drawing takes, in seconds of one thread: measured on one kind of machine (docs/scene.md),
+// good to a factor of two there. Plans compare ways with each other; only ratios matter to the choice.
 #pragma once
 
 #include <algorithm>
@@ -21,7 +21,7 @@ inline double psf(double radius, double eps, double bandwidth) {
     return digits(eps) / 6 * (0.7e-3 + per_area * radius * radius);
 }
 
-// A stamp of `pixels` pixels straight from the diffraction image, beyond the radius made in advance.
+// A stamp of `pixels` pixels straight from the diffraction image, beyond the radius made before.
 inline double large_stamp(double pixels, double radius, double bandwidth) {
     const double wavelengths = bandwidth == 0 ? 1 : 10 + 2 * bandwidth * radius;
     return wavelengths * 3e-6 * pixels;

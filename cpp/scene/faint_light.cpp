@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/faint_light.hpp"
 
+#include "image/sampling.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -58,7 +60,7 @@ void FaintLight::add_to(View<T> image, int64_t first_row, int64_t last_row) cons
     };
     const auto n = static_cast<double>(image_.oversampling);
     const auto place = [n](int64_t sample) {
-        const double native = (static_cast<double>(sample) - (n - 1) / 2) / n;
+        const double native = native_of(static_cast<double>(sample), n);
         const double at = (native + 0.5) / cell - 0.5 + cells_reached;
         return Place{static_cast<int64_t>(std::floor(at)), at - std::floor(at)};
     };

@@ -18,7 +18,7 @@ std::array<double, 4> weights(double t) {
 } // namespace
 
 FarTable::FarTable(const FarLight &light, double radius)
-    : radius_(radius), half_(static_cast<int64_t>(std::ceil(radius / block))) {
+    : half_(static_cast<int64_t>(std::ceil(radius / block))) {
     // Samples of every sub-pixel phase are an image of native pixels of their own.
     const int64_t native = 2 * half_ * block + 4, size = native * per_pixel;
     light_ = Plane<float>(size, size);

@@ -16,8 +16,6 @@ class FarTable {
     // Out to `radius` native pixels; nothing where the far light does not reach inwards.
     FarTable(const FarLight &light, double radius);
 
-    double radius() const { return radius_; }
-
     // Adds a star's far light to rows first_row..last_row of an image of native pixels, but for the
     // pixels within `inner` of it along both axes; `floor` is a share of the light.
     template <class T>
@@ -27,7 +25,6 @@ class FarTable {
   private:
     static constexpr int64_t per_pixel = 3, block = 8; // samples a native pixel; native pixels
 
-    double radius_;
     int64_t half_; // blocks from the star to the table's end
     Plane<float> light_;
     std::vector<float> brightest_; // by block

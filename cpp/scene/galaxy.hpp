@@ -4,7 +4,9 @@
 
 #include "image/view.hpp"
 #include "numerics/bandlimited.hpp"
+#include "optics/field.hpp"
 #include "optics/otf.hpp"
+#include "scene/catalogue.hpp"
 #include "scene/galaxy_grid.hpp"
 #include "scene/sersic.hpp"
 
@@ -25,6 +27,12 @@ struct Galaxy {
 
     static constexpr double largest_radius = 1e5, largest_ellipticity = 0.98;
 };
+
+// With a star's place and flux.
+inline Galaxy galaxy_at(const Star &centre, const GalaxyShape &shape) {
+    return {centre.x, centre.y, centre.flux, shape.sersic_index, shape.half_light_radius_arcsec,
+            shape.e1, shape.e2};
+}
 
 // `pixel_scale` in radians; the OTF must outlive what is made of it.
 Transfer transfer_of(const Otf &otf, double pixel_scale);

@@ -13,14 +13,6 @@ namespace wfpsf {
 
 namespace {
 
-constexpr double probe_eps = 1e-4, probe_radius = 32;
-
-PsfSettings probe_settings(PsfSettings settings) {
-    settings.eps = probe_eps;
-    settings.radius = probe_radius;
-    return settings;
-}
-
 double bandwidth_of(const Light &light) {
     const Spectrum spectrum = light(0);
     const auto [blue, red] = std::ranges::minmax(spectrum.wavelength);
@@ -77,6 +69,34 @@ class Best {
     Offer offer_;
 };
 
+// The largest change of a PSF's pixels from the middle of a region to its corners, as a share of
+// the light.
+double change_over(const Region &region, const SceneOptics &optics, const Light &light) {
+    const PsfSettings settings = probe_settings(optics.settings);
+    constexpr int64_t size = 17;
+    const auto at = [&](double x, double y) {
+        Plane<double> image(size, size);
+        make_psfs(optics.nearest(x, y), {&light, 1}, settings)[0].draw({8, 8, 1}, 1, image.view());
+        return image;
+    };
+    const Plane<double> middle = at((region.x0 + region.x1) / 2, (region.y0 + region.y1) / 2);
+    double change = 0;
+    for (const auto &[u, v] : {std::pair(region.x0, region.y0), std::pair(region.x1, region.y1)}) {
+        const Plane<double> corner = at(u, v);
+        for (int64_t y = 0; y < size; ++y)
+            for (int64_t x = 0; x < size; ++x)
+                change = std::max(change, std::abs(middle(x, y) - corner(x, y)));
+    }
+    return change;
+}
+
+// A change of the PSF adds no light: galaxies wider than it blur it away, but for the cusps of high
+// indices. The smallest of the group is half as wide as the largest.
+double after_blur(const SourceGroup &group) {
+    const double radius = 0.6 * group.half_light;
+    return group.index <= 1.5 ? 1 / (1 + std::pow(radius, 4)) : 1 / (1 + radius);
+}
+
 const char *name_of(Drawing drawing) {
     switch (drawing) {
     case Drawing::shared:
@@ -92,6 +112,12 @@ const char *name_of(Drawing drawing) {
 }
 
 } // namespace
+
+PsfSettings probe_settings(PsfSettings settings) {
+    settings.eps = 1e-4;
+    settings.radius = 32;
+    return settings;
+}
 
 double together(std::span<const PixelError> errors) {
     double squares = 0, mean = 0;
@@ -137,13 +163,14 @@ void ScenePlan::learn_colours(const SceneOptics &optics) {
             if (planned.group.colour == static_cast<int32_t>(c))
                 brightest = std::max(brightest, planned.group.brightest);
         // Far light is known only if it matters.
-        if (brightest * facts.profile.brightest_beyond(probe_radius) < 0.1 * budget_.error())
+        if (brightest * facts.profile.brightest_beyond(settings.radius) < 0.1 * budget_.error())
             continue;
-        if (const auto far = far_light_of(middle, light, settings)) {
-            facts.far.emplace(*far);
+        if (auto far = far_light_of(middle, light, settings)) {
+            facts.far_light = std::make_shared<const FarLight>(std::move(*far));
+            facts.far.emplace(*facts.far_light);
             if (optics.varies)
                 facts.far_varies = far_difference(
-                    *far,
+                    *facts.far_light,
                     FarLight(optics.nearest(optics.region.x0, optics.region.y0), light, settings));
         }
     }
@@ -151,34 +178,6 @@ void ScenePlan::learn_colours(const SceneOptics &optics) {
 
 Region ScenePlan::galaxy_region() const {
     return {image_.x0, image_.y0, image_.x0 + image_.native_x(), image_.y0 + image_.native_y()};
-}
-
-// The largest change of a PSF's pixels from the middle of a region to its corners, as a share of
-// the light.
-static double change_over(const Region &region, const SceneOptics &optics, const Light &light) {
-    const PsfSettings settings = probe_settings(optics.settings);
-    constexpr int64_t size = 17;
-    const auto at = [&](double x, double y) {
-        Plane<double> image(size, size);
-        make_psfs(optics.nearest(x, y), {&light, 1}, settings)[0].draw({8, 8, 1}, 1, image.view());
-        return image;
-    };
-    const Plane<double> middle = at((region.x0 + region.x1) / 2, (region.y0 + region.y1) / 2);
-    double change = 0;
-    for (const auto &[u, v] : {std::pair(region.x0, region.y0), std::pair(region.x1, region.y1)}) {
-        const Plane<double> corner = at(u, v);
-        for (int64_t y = 0; y < size; ++y)
-            for (int64_t x = 0; x < size; ++x)
-                change = std::max(change, std::abs(middle(x, y) - corner(x, y)));
-    }
-    return change;
-}
-
-// A change of the PSF adds no light: galaxies wider than it blur it away, but for the cusps of high
-// indices. The smallest of the group is half as wide as the largest.
-static double after_blur(const SourceGroup &group) {
-    const double radius = 0.6 * group.half_light;
-    return group.index <= 1.5 ? 1 / (1 + std::pow(radius, 4)) : 1 / (1 + radius);
 }
 
 // As few as keep the error small that a galaxy's PSF is not that of its place.

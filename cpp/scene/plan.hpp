@@ -27,6 +27,9 @@ struct SceneOptics {
     Optics middle() const;
 };
 
+// What PSFs and far light are made with that tell plans what to expect.
+PsfSettings probe_settings(PsfSettings settings);
+
 // How a group is drawn, and what is expected of it.
 struct PlannedGroup {
     SourceGroup group;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/render.hpp"
 
+#include "image/sampling.hpp"
 #include "numerics/bands.hpp"
 #include "scene/faint_light.hpp"
 #include "scene/far_table.hpp"
@@ -32,7 +33,8 @@ class Frame {
     explicit Frame(const SceneImage &image)
         : image_(image), n_(static_cast<double>(image.oversampling)) {}
     Star star(const PlacedSource &source) const {
-        return {sample(source.x - image_.x0), sample(source.y - image_.y0), source.flux};
+        return {sample_of(source.x - image_.x0, n_), sample_of(source.y - image_.y0, n_),
+                source.flux};
     }
     bool reaches(const Star &star, double radius) const {
         const double r = radius * n_;
@@ -41,8 +43,6 @@ class Frame {
     }
 
   private:
-    double sample(double native) const { return native * n_ + (n_ - 1) / 2; }
-
     const SceneImage &image_;
     double n_;
 };
@@ -81,7 +81,7 @@ template <class T> class Renderer {
                        g.way.drawing == Drawing::shared;
             });
             if (table)
-                tables_[colour].emplace(*far_light_of(optics_.middle(), light, far_settings()),
+                tables_[colour].emplace(*plan_.colour(static_cast<int32_t>(colour)).far_light,
                                         Way::largest_table);
         }
         report_.models_s = clock.seconds();
@@ -249,7 +249,7 @@ template <class T> class Renderer {
         const PsfSettings s = settings(eps / 10, 8);
         const Psf psf = std::move(make_psfs(optics_.nearest(x, y), {&light, 1}, s)[0]);
         ++report_.exact_psfs;
-        const Otf otf(psf.components(), s.pixel_scale, s.mirrored, eps, s.blur, s.pixel_response);
+        const Otf otf = psf.otf(eps);
         report_.drawn += static_cast<int64_t>(galaxies.size());
         on_rows(0, static_cast<double>(image_.ny), [&](int64_t first_row, int64_t last_row) {
             SersicProfiles profiles;
@@ -261,10 +261,10 @@ template <class T> class Renderer {
                 const GalaxyShape &shape = plan_.shapes()[static_cast<size_t>(source->shape)];
                 const Star centre = frame_.star(*source);
                 const double tolerance = plan_.group_of(*source).way.eps * std::abs(source->flux);
-                drawer.add(Galaxy{centre.x, centre.y - static_cast<double>(first_row), source->flux,
-                                  shape.sersic_index, shape.half_light_radius_arcsec, shape.e1,
-                                  shape.e2},
-                           tolerance, rows);
+                drawer.add(
+                    galaxy_at({centre.x, centre.y - static_cast<double>(first_row), source->flux},
+                              shape),
+                    tolerance, rows);
             }
         });
     }
@@ -311,7 +311,8 @@ template <class T> class Renderer {
         const Star star = frame_.star(source);
         if (way.far > 0)
             far_light_of(optics_.nearest(source.x, source.y),
-                         optics_.lights[static_cast<size_t>(source.colour)], far_settings())
+                         optics_.lights[static_cast<size_t>(source.colour)],
+                         probe_settings(optics_.settings))
                 ->add(star, way.radius, way.far * std::abs(star.flux), image_, threads_);
         if (way.radius <= Way::largest_field) {
             psf.add(std::span(&star, 1), n, image_, threads_);
@@ -331,7 +332,6 @@ template <class T> class Renderer {
                  part, Psf::Drawing::adds, manners_);
     }
 
-    PsfSettings far_settings() const { return settings(1e-4, 32); }
     PsfSettings settings(double eps, double radius) const {
         PsfSettings settings = optics_.settings;
         settings.eps = eps;

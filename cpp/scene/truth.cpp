@@ -2,6 +2,7 @@
 #include "scene/truth.hpp"
 
 #include "detector/ipc_convolve.hpp"
+#include "image/sampling.hpp"
 #include "moments/adaptive.hpp"
 #include "numerics/bands.hpp"
 #include "optics/otf.hpp"
@@ -23,9 +24,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr TrueShape none{nan, nan, nan, nan, nan};
 
 TrueShape shape_of(const AdaptiveMoments &m, double x0, double y0) {
-    const auto native = [](double sample) {
-        return (sample - static_cast<double>(oversampling - 1) / 2) / oversampling;
-    };
+    const auto native = [](double sample) { return native_of(sample, oversampling); };
     return {x0 + native(m.weight.x), y0 + native(m.weight.y), m.sigma() / oversampling, m.e1, m.e2};
 }
 
@@ -76,9 +75,7 @@ int64_t side_of(const PlacedSource &source, const ScenePlan &plan, double pixel_
 // The source alone, seen through the PSF of its place, in electrons a sample.
 Plane<double> image_of(const PlacedSource &source, const Psf &psf, const SceneOptics &optics,
                        const ScenePlan &plan, int64_t side, double x0, double y0) {
-    const auto sample = [](double native) {
-        return native * oversampling + static_cast<double>(oversampling - 1) / 2;
-    };
+    const auto sample = [](double native) { return sample_of(native, oversampling); };
     Plane<double> image(side * oversampling, side * oversampling);
     const Star centre{sample(source.x - x0), sample(source.y - y0), source.flux};
     if (source.shape == PlacedSource::star) {
@@ -86,15 +83,12 @@ Plane<double> image_of(const PlacedSource &source, const Psf &psf, const SceneOp
         return image;
     }
     constexpr double otf_eps = 1e-4, tolerance = 1e-8; // of the flux
-    const PsfSettings &s = psf.settings();
-    const Otf otf(psf.components(), s.pixel_scale, s.mirrored, otf_eps, s.blur, s.pixel_response);
+    const Otf otf = psf.otf(otf_eps);
     SersicProfiles profiles;
-    GalaxyDrawer drawer(transfer_of(otf, s.pixel_scale / oversampling),
+    GalaxyDrawer drawer(transfer_of(otf, psf.settings().pixel_scale / oversampling),
                         optics.pixel_scale_arcsec / oversampling, profiles);
     const GalaxyShape &shape = plan.shapes()[static_cast<size_t>(source.shape)];
-    drawer.add(Galaxy{centre.x, centre.y, centre.flux, shape.sersic_index,
-                      shape.half_light_radius_arcsec, shape.e1, shape.e2},
-               tolerance * std::abs(source.flux), image.view());
+    drawer.add(galaxy_at(centre, shape), tolerance * std::abs(source.flux), image.view());
     return image;
 }
 

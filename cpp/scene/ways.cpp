@@ -132,11 +132,9 @@ void Ways::with_and_without_far(const Way &way, double time_s, double psf_error,
         with.far = step.floor;
         const double time = own ? cost::making_far_light + cost::far_light(pixels(end))
                                 : cost::far_blocks(step.pixels);
-        take(
-            {with,
-             time_s + count() * time,
-             {group_.densest * (left + off) + in_noise_of_star(group_, colour_, budget_, psf_error),
-              mean(light, left)}});
+        take({with,
+              time_s + count() * time,
+              {group_.densest * (left + off) + of_psf, mean(light, left)}});
     }
 }
 

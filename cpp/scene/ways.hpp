@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -56,15 +57,16 @@ struct SharedModel {
 // A colour's PSFs, as far as plans need to know them.
 struct ColourFacts {
     LightProfile profile;
-    double bandwidth = 0; // relative; 0: one wavelength
-    bool varies = false;  // over the detector
+    double bandwidth = 0;                      // relative; 0: one wavelength
+    bool varies = false;                       // over the detector
+    std::shared_ptr<const FarLight> far_light; // of the detector's middle, if plans may use it
     std::optional<FarReach> far;
     double far_varies = 0; // share of the far light that differs over the detector
 };
 
-// Errors of a pixel, e-; where a star's own light adds noise, as many as are that share of the noise
-// in a pixel without sources. Those in single places hardly ever meet: their squares add up. The means of
-// what is left out everywhere add up themselves.
+// Errors of a pixel, e-; where a star's own light adds noise, as many as are that share of the
+// noise in a pixel without sources. Those in single places hardly ever meet: their squares add up.
+// The means of what is left out everywhere add up themselves.
 struct PixelError {
     double local = 0, mean = 0;
 };
@@ -76,8 +78,8 @@ struct Offer {
 };
 using Take = std::function<void(const Offer &)>;
 
-// An error of the PSF, a share of the light in a pixel, of all that a cell of the group holds. It is
-// largest in the core, whose light has noise, and falls off no slower than that noise does.
+// An error of the PSF, a share of the light in a pixel, of all that a cell of the group holds. It
+// is largest in the core, whose light has noise, and falls off no slower than that noise does.
 double in_noise_of_star(const SourceGroup &group, const ColourFacts &colour,
                         const SceneBudget &budget, double psf_error);
 

@@ -7,6 +7,7 @@
 #include "optics/roman_region.hpp"
 #include "optics/spider_region.hpp"
 #include "oracles/psf_oracle.hpp"
+#include "oracles/tilted_star.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,38 +20,11 @@ namespace {
 
 using namespace oracle;
 
-constexpr double pixel_scale = 0.11 * pi / 180 / 3600;
-constexpr double reference = 1293e-9, radius = 1.18;
-
-struct Scene {
-    const Instrument &instrument;
-    std::shared_ptr<const Aperture> aperture;
-    Light light;
-
-    Scene(const char *name, const char *band)
-        : Scene(name, band,
-                std::visit(
-                    [](const auto &pupil) {
-                        return std::shared_ptr<const Aperture>(make_aperture(pupil));
-                    },
-                    Instrument::get(name).pupil(7, band))) {}
-    Scene(const char *name, const char *band, std::shared_ptr<const Aperture> behind)
-        : instrument(Instrument::get(name)), aperture(std::move(behind)),
-          light(detected_light(instrument.band(band), black_body_sed(5000))) {}
-
-    // The same as it is (x, y) native pixels off the star: a tilt of the wavefront.
-    Optics optics(double x = 0, double y = 0) const {
-        const auto zernikes = instrument.zernikes(7);
-        std::vector<double> waves(zernikes.begin(), zernikes.end());
-        waves[0] = 0;
-        waves[1] = x * pixel_scale * radius / (2 * reference);
-        waves[2] = y * pixel_scale * radius / (2 * reference);
-        return {aperture, Wavefront(waves, radius), reference};
-    }
-};
-
 PsfSettings settings(double eps = 1e-4, double reach = 8.5) {
-    return {.wavelength = reference, .pixel_scale = pixel_scale, .eps = eps, .radius = reach};
+    return {.wavelength = reference_wavelength,
+            .pixel_scale = native_pixel,
+            .eps = eps,
+            .radius = reach};
 }
 
 // ------------------------------------------------------------------------------------------- edges
@@ -78,8 +52,8 @@ double area_inside(const PupilEdges &edges) {
 TEST(PupilEdges, GoAroundTheLitAreaOfEveryPupil) {
     std::vector<std::pair<const char *, std::shared_ptr<const Aperture>>> apertures;
     for (const char *band : {"J129", "F184"})
-        apertures.emplace_back(band, Scene("roman-c9", band).aperture);
-    apertures.emplace_back("c5", Scene("wfirst-afta-c5", "J129").aperture);
+        apertures.emplace_back(band, TiltedStar("roman-c9", band).aperture);
+    apertures.emplace_back("c5", TiltedStar("wfirst-afta-c5", "J129").aperture);
     apertures.emplace_back("annulus", make_aperture(AnnularPupil{1.2, 0.4}));
     apertures.emplace_back(
         "spider", make_aperture(SpiderPupil{1.2, 0.36, {{0, 1, 0, 0.05}, {1, 0, 0.1, 0.03}}}));
@@ -88,7 +62,7 @@ TEST(PupilEdges, GoAroundTheLitAreaOfEveryPupil) {
 }
 
 TEST(PupilEdges, RoundedCornersGoOnFromStraightEdges) {
-    const PupilEdges edges = pupil_edges(Scene("wfirst-afta-c5", "J129").aperture->parts());
+    const PupilEdges edges = pupil_edges(TiltedStar("wfirst-afta-c5", "J129").aperture->parts());
     EXPECT_EQ(edges.straight.size(), 12U);
     const auto joined = junctions(edges);
     EXPECT_EQ(joined.size(), 24U);
@@ -103,7 +77,7 @@ struct Patch {
     double sum, bright; // largest error of the sum, and rms error of the bright pixels
 };
 
-void expect_like_the_engine(const Scene &scene, const std::vector<Patch> &patches) {
+void expect_like_the_engine(const TiltedStar &scene, const std::vector<Patch> &patches) {
     const FarLight far(scene.optics(), scene.light, settings());
     for (const auto &[x, y, most_sum, most_bright] : patches) {
         const auto there = scene.optics(static_cast<double>(x), static_cast<double>(y));
@@ -159,7 +133,8 @@ TEST(FarLight, OfAnAnnulusIsTheMeanOfItsRings) {
     const Light light =
         detected_light(Instrument::get("roman-c9").band("J129"), black_body_sed(5000));
     const std::shared_ptr<const Aperture> aperture = make_aperture(pupil);
-    const FarLight far({aperture, Wavefront({}, radius), reference}, light, settings());
+    const FarLight far({aperture, Wavefront({}, pupil_radius), reference_wavelength}, light,
+                       settings());
     EXPECT_TRUE(far.spikes(100, 1e-20).empty());
     const Spectrum spectrum = light(1e-4);
     double truth = 0, mine = 0;
@@ -167,16 +142,16 @@ TEST(FarLight, OfAnAnnulusIsTheMeanOfItsRings) {
         const double r = 100 + 0.1 * step;
         mine += far.at(0.6 * r, 0.8 * r);
         for (size_t q = 0; q < spectrum.size(); ++q)
-            truth +=
-                spectrum.weight[q] *
-                airy(pupil, spectrum.wavelength[q])(0.6 * r * pixel_scale, 0.8 * r * pixel_scale) *
-                pixel_scale * pixel_scale;
+            truth += spectrum.weight[q] *
+                     airy(pupil, spectrum.wavelength[q])(0.6 * r * native_pixel,
+                                                         0.8 * r * native_pixel) *
+                     native_pixel * native_pixel;
     }
     EXPECT_NEAR(mine / truth, 1, 0.01);
 }
 
 TEST(FarLight, IsMirroredWithThePupil) {
-    const Scene scene("roman-c9", "J129");
+    const TiltedStar scene("roman-c9", "J129");
     PsfSettings other = settings();
     other.mirrored = true;
     const FarLight plain(scene.optics(), scene.light, settings());
@@ -190,7 +165,7 @@ TEST(FarLight, IsMirroredWithThePupil) {
 }
 
 TEST(FarLight, IsAddedOutsideTheStampDownToTheFloor) {
-    const Scene scene("roman-c9", "J129");
+    const TiltedStar scene("roman-c9", "J129");
     const FarLight far(scene.optics(), scene.light, settings());
     const Star star{70.3, 210.6, 1e8};
     constexpr double inner = 40, floor = 0.1;
@@ -219,7 +194,7 @@ TEST(FarLight, IsAddedOutsideTheStampDownToTheFloor) {
 }
 
 TEST(FarLight, RefusesWhatItHasNoTheoryFor) {
-    const Scene scene("roman-c9", "J129");
+    const TiltedStar scene("roman-c9", "J129");
     EXPECT_THROW(FarLight(scene.optics(), monochromatic(1e-6), settings()), Error);
     Plane<double> mask(8, 8);
     mask(4, 4) = 1;

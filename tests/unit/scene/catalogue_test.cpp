@@ -18,7 +18,7 @@ wfpsf_status status_of(const std::function<void()> &body) {
 }
 
 TEST(Catalogue, KeepsWhatItIsGiven) {
-    Catalogue catalogue(Positions::detector, Brightness::ab_magnitude);
+    Catalogue catalogue(PositionKind::detector, BrightnessKind::ab_magnitude);
     catalogue.add_colour({});
     catalogue.add_colour({.wavelength_nm = 1200});
     const double x[] = {1, 2}, y[] = {3, 4}, magnitude[] = {0, 2.5};
@@ -36,7 +36,7 @@ TEST(Catalogue, KeepsWhatItIsGiven) {
 }
 
 TEST(Catalogue, RefusesBadNumbersAndAddsNothing) {
-    Catalogue catalogue(Positions::sky, Brightness::electrons);
+    Catalogue catalogue(PositionKind::sky, BrightnessKind::electrons);
     const double good[] = {1, 2}, nan[] = {1, NAN}, pole[] = {1, 91};
     const int32_t colour[] = {0, 1};
     EXPECT_EQ(status_of([&] {
