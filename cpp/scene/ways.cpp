@@ -14,6 +14,9 @@ namespace {
 // Errors below that share of the budget need not become smaller.
 constexpr double negligible = 0.01;
 
+// What PSFs are off and lack is no larger than that, of what they may be (tests/unit/optics).
+constexpr double of_bound = 0.3;
+
 // from, from / factor, ... down to `to`.
 std::vector<double> falling(double from, double to, double factor) {
     std::vector<double> all;
@@ -138,20 +141,17 @@ void Ways::with_and_without_far(const Way &way, double time_s, double psf_error,
     }
 }
 
-// Samples of fields that a stamp is a sum of. Each field is some share of the one before, and falls
-// off as the light does.
-double Ways::model_samples(double radius, double left_out) const {
-    constexpr double first = 0.08, next = 0.62; // shares
-    double samples = cost::samples(radius);
-    if (!colour_.varies)
-        return samples;
-    double reach = radius;
-    for (double share = first; share * colour_.profile.peak() > left_out; share *= next) {
-        while (reach > 0 && share * colour_.profile.brightest_beyond(reach - 1) <= left_out)
-            --reach;
-        samples += cost::samples(reach);
-    }
-    return samples;
+// PSFs of one place are some share of the light off those of others near by, and differ as far out
+// as that share of the light counts.
+double Ways::shared_stamp(double radius, double eps, double left_out) const {
+    constexpr double differs = 0.1; // share
+    const double stamp = cost::stamp(width(radius), radius, eps);
+    if (!colour_.varies || differs * colour_.profile.peak() <= left_out)
+        return stamp;
+    double reach = 1;
+    while (reach < radius && differs * colour_.profile.brightest_beyond(reach) > left_out)
+        ++reach;
+    return stamp + cost::correction(reach, eps);
 }
 
 void Ways::of_shared(const SharedModel &model, const Take &take) const {
@@ -159,9 +159,8 @@ void Ways::of_shared(const SharedModel &model, const Take &take) const {
     for (const double left_out : falling(colour_.varies ? 1e-2 : model.eps, model.eps / 2, 4))
         for (const double radius : radii(std::min(model.radius, group_.reach)))
             with_and_without_far({Drawing::shared, radius, model.eps, peak * left_out, 0},
-                                 count() * cost::stamp(width(radius), radius,
-                                                       model_samples(radius, peak * left_out)),
-                                 peak * (model.eps + left_out) + point_error(), take);
+                                 count() * shared_stamp(radius, model.eps, peak * left_out),
+                                 peak * of_bound * (model.eps + left_out) + point_error(), take);
 }
 
 void Ways::of_own(const Take &take) const {
@@ -174,9 +173,9 @@ void Ways::of_own(const Take &take) const {
             if (radius > Way::largest_field)
                 time += cost::large_stamp(pixels(radius), radius, colour_.bandwidth);
             else
-                time += cost::stamp(width(radius), radius, 0);
+                time += cost::stamp(width(radius), radius, eps);
             with_and_without_far({Drawing::own, radius, eps, 0, 0}, count() * time,
-                                 colour_.profile.peak() * eps + point_error(), take);
+                                 colour_.profile.peak() * of_bound * eps + point_error(), take);
         }
 }
 

@@ -35,7 +35,7 @@ struct Way {
     Drawing drawing = Drawing::shared;
     double radius = 0;   // of the stamp, native pixels
     double eps = 0;      // of the PSF, of its peak; of galaxies, of a pixel as a share of the flux
-    double left_out = 0; // by modes of the shared model: largest share of the light in a pixel
+    double left_out = 0; // by the shared model: largest share of the light in a pixel
     double far = 0;      // light beyond the stamp is drawn down to that share; 0: none is
 
     // What the stamps leave out is drawn all the same, as smooth light.
@@ -99,7 +99,7 @@ class Ways {
     double pixels(double radius) const;
     double width(double radius) const;
     double point_error() const;
-    double model_samples(double radius, double left_out) const;
+    double shared_stamp(double radius, double eps, double left_out) const;
     double cut(double radius) const;
     double mean(double light, double cut) const;
     PixelError left_out(const Way &way) const;
