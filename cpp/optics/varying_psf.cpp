@@ -114,11 +114,12 @@ VaryingPsf::VaryingPsf(OpticsAt optics, bool varies, Light light, const PsfSetti
     const KeptMemory kept;
     exact_psfs_ = 1;
     error_ = plain_.error;
-    if (!varies) {
-        mode_.push_back({0, 0, plain_.value, {}});
-        mode_[0].find_brightest(plain_.per_pixel);
+    mode_.push_back({0, 0, plain_.value, {}});
+    mode_[0].find_brightest(plain_.per_pixel);
+    if (!varies)
         return;
-    }
+    for (const double brightest : mode_[0].brightest)
+        falls_.push_back(std::max(error_far_off, std::sqrt(brightest / mode_[0].largest())));
     ExactFields exact(*this);
     double done = 0.1; // at each level half of what was left
     double radius = settings_.radius;
@@ -202,7 +203,7 @@ void VaryingPsf::expand(ExactFields &exact, double radius, const Progress &progr
 
 double VaryingPsf::measure(ExactFields &exact, double radius) {
     const double safety = degree_ == 0 ? 2 : 1.5; // for all places that are not looked at
-    std::vector<double> by_ring(static_cast<size_t>(std::ceil(settings_.radius)) + 2);
+    std::vector<double> by_ring(falls_.size());
     for (const Node &node : tests_of(degree_)) {
         const Field &truth = exact.at(node, radius);
         const auto [x, y] = place(node.u(), node.v());
@@ -219,9 +220,8 @@ double VaryingPsf::measure(ExactFields &exact, double radius) {
                               truth.faintest_peak);
             }
     }
-    const double allowed = share_of_places * settings_.eps;
     size_t wrong = by_ring.size(); // rings within
-    while (wrong > 0 && by_ring[wrong - 1] <= allowed)
+    while (wrong > 0 && by_ring[wrong - 1] <= share_of_places * settings_.eps * falls_[wrong - 1])
         --wrong;
     const double worst_there = *std::ranges::max_element(by_ring);
     const double worst_beyond =

@@ -48,6 +48,10 @@ class VaryingPsf {
     void add(std::span<const Star> stars, std::span<const StarDetail> details, double x0, double y0,
              int64_t oversampling, View<T> image, int threads) const;
 
+    // From the core on errors fall as the noise of bright stars does, as the root of the light, down
+    // to this share.
+    static constexpr double error_far_off = 0.1;
+
     const PsfSettings &settings() const { return settings_; }
     // Estimates in units of the peak pixel, at any place: of all errors, of the interpolation
     // alone.
@@ -83,9 +87,11 @@ class VaryingPsf {
     int degree_ = 0;
     int64_t exact_psfs_ = 0;
     double error_ = 0, interpolation_error_ = 0;
-    double error_beyond_ = 0;     // of the interpolation, where no higher degree is needed
-    double left_out_ = 0;      // of stars, if nothing else is asked for
-    Field plain_;                 // what the fields of all places have in common
+    double error_beyond_ = 0; // of the interpolation, where no higher degree is needed
+    std::vector<double>
+        falls_;           // what errors may be at 0, 1, ... native pixels, of that at the core
+    double left_out_ = 0; // of stars, if nothing else is asked for
+    Field plain_;         // what the fields of all places have in common
     std::vector<LightMode> mode_; // the brightest first
 };
 

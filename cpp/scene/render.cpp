@@ -92,16 +92,14 @@ template <class T> class Renderer {
         std::vector<PixelError> errors;
         for (const PlannedGroup &planned : plan_.groups()) {
             const Way &way = planned.way;
-            const double peak = plan_.colour(planned.group.colour).profile.peak();
             const double eps =
                 way.drawing == Drawing::shared
                     ? models_[static_cast<size_t>(planned.group.colour)]->error_estimate()
                     : way.eps;
-            errors.push_back(
-                {std::max(planned.error.local,
-                          in_noise_of_star(planned.group, plan_.colour(planned.group.colour),
-                                           plan_.budget(), eps * peak)),
-                 planned.error.mean});
+            errors.push_back({std::max(planned.error.local,
+                                       psf_error(planned.group, plan_.colour(planned.group.colour),
+                                                 plan_.budget(), eps, way.left_out)),
+                              planned.error.mean});
         }
         report_.error = together(errors);
     }
