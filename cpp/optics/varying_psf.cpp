@@ -294,34 +294,44 @@ struct VaryingPsf::CellStars {
 
 std::vector<VaryingPsf::CellStars> VaryingPsf::by_cell(std::span<const Place> places,
                                                        std::span<const StarDetail> details) const {
-    double least = INFINITY; // that is left out
-    for (const StarDetail &detail : details)
-        least = std::min(least, detail.left_out);
-    const int64_t across = cells_across(mode_, share_of_cells * least);
-    std::vector<CellStars> cells(static_cast<size_t>(across * across));
-    const auto half = 1 / static_cast<double>(across);
-    const auto along = [across, half](double at) {
-        return std::min(static_cast<int64_t>((at + 1) / (2 * half)), across - 1);
+    // Stars that may lack little need small cells, and have theirs apart from others.
+    std::map<double, int64_t> across_by_left_out;
+    struct Key {
+        int64_t across, b, a; // cells along each axis, and which
+        auto operator<=>(const Key &) const = default;
     };
-    constexpr size_t few = 6; // stars, that take no longer one by one
+    std::map<Key, CellStars> cells;
     std::vector<CellStars> all;
     const auto alone = [&](size_t i) {
         all.push_back({{places[i].x, places[i].y, 0}, details[i].radius, details[i].left_out, {i}});
     };
     for (size_t i = 0; i < places.size(); ++i) {
+        const StarDetail &detail = details[i];
+        auto known = across_by_left_out.find(detail.left_out);
+        if (known == across_by_left_out.end())
+            known =
+                across_by_left_out
+                    .emplace(detail.left_out, cells_across(mode_, share_of_cells * detail.left_out))
+                    .first;
+        const int64_t across = known->second;
         if (across == 0) {
             alone(i);
             continue;
         }
-        const int64_t a = along(places[i].x), b = along(places[i].y);
-        CellStars &cell = cells[static_cast<size_t>(b * across + a)];
-        cell.cell = {half * static_cast<double>(2 * a + 1 - across),
-                     half * static_cast<double>(2 * b + 1 - across), half};
-        cell.radius = std::max(cell.radius, details[i].radius);
-        cell.left_out = std::min(cell.left_out, details[i].left_out);
+        const double half = 1 / static_cast<double>(across);
+        const auto along = [across, half](double at) {
+            return std::min(static_cast<int64_t>((at + 1) / (2 * half)), across - 1);
+        };
+        const Key key{across, along(places[i].y), along(places[i].x)};
+        CellStars &cell = cells[key];
+        cell.cell = {half * static_cast<double>(2 * key.a + 1 - across),
+                     half * static_cast<double>(2 * key.b + 1 - across), half};
+        cell.radius = std::max(cell.radius, detail.radius);
+        cell.left_out = std::min(cell.left_out, detail.left_out);
         cell.stars.push_back(i);
     }
-    for (CellStars &cell : cells) {
+    constexpr size_t few = 6; // stars, that take no longer one by one
+    for (auto &[key, cell] : cells) {
         if (cell.stars.size() > few)
             all.push_back(std::move(cell));
         else

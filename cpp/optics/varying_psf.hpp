@@ -50,7 +50,7 @@ class VaryingPsf {
 
     // From the core on errors fall as the noise of bright stars does, as the root of the light, down
     // to this share.
-    static constexpr double error_far_off = 0.1;
+    static constexpr double error_far_off = 0.3;
 
     const PsfSettings &settings() const { return settings_; }
     // Estimates in units of the peak pixel, at any place: of all errors, of the interpolation

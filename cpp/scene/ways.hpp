@@ -42,7 +42,7 @@ struct Way {
     bool is_smooth_beyond() const { return drawing == Drawing::shared && far == 0; }
 
     // Own PSFs are made out to here; what is farther is drawn straight from the diffraction image.
-    static constexpr double largest_field = 256;
+    static constexpr double largest_field = 512;
     // Far light that sources share ends here.
     static constexpr double largest_table = 256;
 };
