@@ -28,7 +28,7 @@ FarSource far_source(const Optics &optics, const Light &light, const PsfSettings
     const WavelengthRule rule(spectrum, colours);
     return {optics, settings,
             rule.exact() ? spectrum : Spectrum{rule.wavelengths(), rule.weights(spectrum)},
-            nearest_pixel};
+            nearest_pixel, light};
 }
 
 // The spectrum as a box of the same variance in 1 / wavelength.
@@ -46,12 +46,15 @@ double fringes_per_pixel(const FarSource &source) {
 } // namespace
 
 FarLight::FarLight(const Optics &optics, const Light &light, const PsfSettings &settings)
-    : FarLight(far_source(optics, light, settings), pupil_edges(optics.aperture->parts()),
-               settings.mirrored ? -1 : 1) {}
+    : FarLight(far_source(optics, light, settings), pupil_edges(optics.aperture->parts())) {}
 
-FarLight::FarLight(const FarSource &source, const PupilEdges &edges, double mirror)
-    : nearest_(source.nearest), mirror_(mirror), fringes_per_pixel_(fringes_per_pixel(source)),
-      spikes_(make_spikes(source, edges)), halo_(source, edges) {}
+FarLight::FarLight(const FarSource &source, const PupilEdges &edges)
+    : FarLight(source, edges, RimPoints(source, edges)) {}
+
+FarLight::FarLight(const FarSource &source, const PupilEdges &edges, RimPoints rims)
+    : nearest_(source.nearest), mirror_(source.settings.mirrored ? -1 : 1),
+      fringes_per_pixel_(fringes_per_pixel(source)), spikes_(make_spikes(source, edges)),
+      halo_(source, edges, rims), rim_fringes_(source, edges, std::move(rims)) {}
 
 void FarLight::add(const PixelRow &row, double floor) const {
     halo_.add(row, floor);
@@ -59,6 +62,7 @@ void FarLight::add(const PixelRow &row, double floor) const {
         spike.add(row, floor);
     for (const Fringes &fringes : spikes_.fringes)
         fringes.add(row, floor);
+    rim_fringes_.add(row, floor);
 }
 
 double FarLight::at(double x, double y) const {
@@ -113,6 +117,7 @@ double FarLight::brightest_beyond(double r) const {
         for (const Fringes &fringes : spikes_.fringes)
             if (std::abs(fringes.axes().across(on.axes().nx, on.axes().ny)) < same_direction)
                 sum += fringes.brightest(r);
+        sum += rim_fringes_.brightest(r, on.axes());
         most = std::max(most, sum);
     }
     return halo_.brightest(r) + most;

@@ -6,6 +6,7 @@
 
 #include "image/view.hpp"
 #include "optics/far_halo.hpp"
+#include "optics/far_rim_fringes.hpp"
 #include "optics/far_spikes.hpp"
 
 #include <vector>
@@ -57,13 +58,15 @@ class FarLight {
     Error relative_error(double r) const;
 
   private:
-    FarLight(const FarSource &source, const PupilEdges &edges, double mirror);
+    FarLight(const FarSource &source, const PupilEdges &edges);
+    FarLight(const FarSource &source, const PupilEdges &edges, RimPoints rims);
     void add(const PixelRow &row, double floor) const;
 
     double nearest_, mirror_;
     double fringes_per_pixel_; // across the pupil, that light of all colours differs by
     Spikes spikes_;
     Halo halo_;
+    RimFringes rim_fringes_;
 };
 
 } // namespace wfpsf

@@ -32,11 +32,6 @@ constexpr double pi = std::numbers::pi;
 
 // ----------------------------------------------------------------------------------- runs in a row
 
-// The pixels first..last of a row.
-struct Run {
-    int64_t first, last;
-};
-
 // Parts of a row between the roots of some conditions, where the middle is accepted.
 template <class Accept>
 std::vector<Run> accepted_runs(std::vector<double> roots, double x, int64_t n,
@@ -70,6 +65,25 @@ void add_roots(std::vector<double> &roots, double a, double b, double c) {
 }
 
 } // namespace
+
+std::vector<Run> runs_along(const SpikeAxes &axes, const PixelRow &row, double reach,
+                            double nearest, double farthest) {
+    const auto &[nx, ny] = axes;
+    if (std::abs(row.y) > farthest + reach)
+        return {};
+    std::vector<double> roots{-ny * row.y / nx}; // along = 0
+    for (const double side : {-1.0, 1.0}) {
+        roots.push_back((nx * row.y - side * reach) / ny);
+        for (const double end : {nearest, farthest})
+            roots.push_back((side * end - ny * row.y) / nx);
+    }
+    return accepted_runs(std::move(roots), row.x, static_cast<int64_t>(row.light.size()),
+                         [&](double x) {
+                             const double along = std::abs(axes.along(x, row.y));
+                             return std::abs(axes.across(x, row.y)) <= reach && along <= farthest &&
+                                    along >= nearest;
+                         });
+}
 
 double FarSource::bandwidth() const {
     return optics.aperture->diameter() * pixel() / std::ranges::min(spectrum.wavelength);
@@ -227,22 +241,8 @@ double Fringes::brightest(double r) const {
 }
 
 void Fringes::add(const PixelRow &row, double floor) const {
-    const auto &[nx, ny] = axes_;
-    const int64_t half = columns_ / 2;
-    const double reach = static_cast<double>(half - 2) / per_across_;
-    const double farthest = std::sqrt(most_.front() / floor);
-    std::vector<double> roots{-ny * row.y / nx}; // along = 0
-    for (const double side : {-1.0, 1.0}) {
-        roots.push_back((nx * row.y - side * reach) / ny);
-        for (const double end : {nearest_, farthest})
-            roots.push_back((side * end - ny * row.y) / nx);
-    }
-    const auto runs = accepted_runs(std::move(roots), row.x, static_cast<int64_t>(row.light.size()),
-                                    [&](double x) {
-                                        const double along = std::abs(axes_.along(x, row.y));
-                                        return std::abs(axes_.across(x, row.y)) <= reach &&
-                                               along <= farthest && along >= nearest_;
-                                    });
+    const double reach = static_cast<double>(columns_ / 2 - 2) / per_across_;
+    const auto runs = runs_along(axes_, row, reach, nearest_, std::sqrt(most_.front() / floor));
     for (const Run &run : runs) {
         const PixelRow part = row.part(run.first, run.last);
         const double middle = part.x + static_cast<double>(part.light.size() - 1) / 2;

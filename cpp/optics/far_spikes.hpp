@@ -20,8 +20,9 @@ namespace wfpsf {
 struct FarSource {
     const Optics &optics;
     const PsfSettings &settings;
-    Spectrum spectrum; // a Gauss rule of a few points
-    double nearest;    // native pixels
+    Spectrum spectrum;  // a Gauss rule of a few points
+    double nearest;     // native pixels
+    const Light &light; // that the spectrum is of
 
     double area() const { return optics.aperture->area(); }
     double pixel() const { return settings.pixel_scale; }
@@ -51,6 +52,16 @@ struct PixelRow {
                 light.subspan(static_cast<size_t>(first), static_cast<size_t>(last - first + 1))};
     }
 };
+
+// The pixels first..last of a row.
+struct Run {
+    int64_t first, last;
+};
+
+// Those up to `reach` across from a spike's line and between two distances along it, on either side
+// of the star; no run is on both.
+std::vector<Run> runs_along(const SpikeAxes &axes, const PixelRow &row, double reach,
+                            double nearest, double farthest);
 
 // Spikes that are so close in angle, radians, may lie on each other.
 inline constexpr double same_direction = 0.25;

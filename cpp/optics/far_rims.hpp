@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The curved edges of a pupil seen from far off the core: each oval that they lie on sends light
+// from the two points where its normal points along the direction, by the method of stationary
+// phase, with Fresnel's integrals where the edges end.
+#pragma once
+
+#include "optics/far_spikes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace wfpsf {
+
+// Angles about a circle: 0..4 along a square that stands on its corner, quick to find.
+[[gnu::always_inline]] inline double diamond(double x, double y) {
+    const double p = y / (std::abs(x) + std::abs(y));
+    return x < 0 ? 2 - p : y < 0 ? 4 + p : p;
+}
+
+// Where a table by direction and by sqrt(nearest / r) is read.
+struct RimTable {
+    static constexpr int directions = 1440, distances = 12;
+    static constexpr ptrdiff_t columns = distances + 1;
+    static constexpr size_t size = static_cast<size_t>(directions + 1) * columns;
+
+    // A unit vector.
+    struct Direction {
+        double x, y;
+    };
+    static Direction direction(int i);
+    static double distance(int j, double nearest) {
+        return nearest * std::pow(static_cast<double>(distances) / j, 2);
+    }
+    static size_t entry(int i, int j) { return static_cast<size_t>(i * columns + j); }
+    // The direction and distance that bound the first row and column alike.
+    static void close(std::vector<double> &table);
+
+    struct Place {
+        int32_t row, column;
+        double s, t; // from there to the next ones
+        [[gnu::always_inline]] double of(const double *table) const {
+            const double *entry = table + row * columns + column;
+            const double low = entry[0] + t * (entry[1] - entry[0]);
+            entry += columns;
+            const double high = entry[0] + t * (entry[1] - entry[0]);
+            return low + s * (high - low);
+        }
+    };
+    [[gnu::always_inline]] static Place place(double x, double y, double nearest_over_r) {
+        const double row = std::min(diamond(x, y) * (directions / 4.0), directions - 1e-6);
+        const double column = std::min(std::sqrt(nearest_over_r) * distances, distances - 1e-6);
+        const auto j = static_cast<int32_t>(row), c = static_cast<int32_t>(column);
+        return {j, c, row - j, column - c};
+    }
+};
+
+// One of an oval's two points, in front (towards the direction) or behind.
+struct RimPoint {
+    Oval oval;
+    double side;                // +1: in front, -1: behind
+    std::vector<double> re, im; // amplitude by direction and distance: see RimPoints
+    std::vector<double> waves;  // wavefront there by direction, at the mean wavelength
+    double most = 0;            // of the amplitudes
+
+    // Along (x, y), times its length.
+    [[gnu::always_inline]] double place(double x, double y) const {
+        return oval.x * x + oval.y * y +
+               side * std::hypot(oval.half_width * x + oval.shear * y, oval.half_height * y);
+    }
+};
+
+// The amplitude of a point is exp(2 pi i (k place + waves)) / k^(3/2) times its table's; the light
+// per unit of solid angle is its square over (2 pi)^2, k = r / wavelength in cycles per metre.
+struct RimPoints {
+    double nearest, wavelength;
+    std::vector<RimPoint> points; // in pairs, the one in front first
+
+    RimPoints(const FarSource &source, const PupilEdges &edges);
+};
+
+// Radians that an edge may turn by where a curved one goes on from it.
+inline constexpr double smooth_kink = 0.01;
+
+} // namespace wfpsf
