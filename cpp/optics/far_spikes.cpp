@@ -360,9 +360,14 @@ class SpikeTables {
         : source_(source), step_(0.25 / std::max(1.0, source.bandwidth())) {
         for (const StraightEdge &edge : edges.straight)
             edges_.push_back(waves(edge));
-        for (const Junction &junction : junctions(edges))
+        for (const Junction &junction : junctions(edges)) {
+            EdgeWaves &edge = edges_[junction.straight];
+            const CurvedEdge &arc = edges.curved[junction.curved];
             if (junction.kink < widest_kink)
-                add_arc(edges_[junction.straight], edges.curved[junction.curved], junction);
+                add_arc(edge, arc, junction);
+            else
+                add_corner(edge, arc, junction);
+        }
     }
 
     Spikes spikes() const {
@@ -416,6 +421,30 @@ class SpikeTables {
             }
         }
         return out;
+    }
+
+    // What an arc that turns off from the edge's end sends from there. It goes as the inverse of k,
+    // like the slope.
+    void add_corner(EdgeWaves &edge, const CurvedEdge &arc, const Junction &junction) const {
+        const Oval &o = arc.oval;
+        const double a = junction.at_begin ? arc.begin : arc.end;
+        const double u = std::cos(a), v = std::sin(a);
+        const double x = o.x + o.half_width * u, y = o.y + o.shear * u + o.half_height * v;
+        // Out of the lit side, and away from the corner.
+        const double way = arc.lit_inside ? 1 : -1, onwards = junction.at_begin ? 1 : -1;
+        const double dx = -o.half_width * v, dy = o.half_height * u - o.shear * v;
+        const double normal = way * edge.axes.along(dy, -dx);
+        const double tangent = onwards * edge.axes.along(dx, dy);
+        const double s = edge.axes.across(x - edge.x, y - edge.y);
+        for (size_t q = 0; q < source_.spectrum.size(); ++q) {
+            const double wavelength = source_.spectrum.wavelength[q];
+            const double turn = source_.pixel() * step_ / wavelength;
+            const Complex wave =
+                std::polar(normal / tangent / (2 * pi),
+                           2 * pi * source_.wavefront(wavelength)(x, y) - pi / 2);
+            add_wave(wave, -turn * static_cast<double>(wide) * s, turn * s, edge.slope[q].re,
+                     edge.slope[q].im);
+        }
     }
 
     void add_arc(EdgeWaves &edge, const CurvedEdge &arc, const Junction &junction) const {
