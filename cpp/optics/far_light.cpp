@@ -48,13 +48,27 @@ double fringes_per_pixel(const FarSource &source) {
 FarLight::FarLight(const Optics &optics, const Light &light, const PsfSettings &settings)
     : FarLight(far_source(optics, light, settings), pupil_edges(optics.aperture->parts())) {}
 
-FarLight::FarLight(const FarSource &source, const PupilEdges &edges)
-    : FarLight(source, edges, RimPoints(source, edges)) {}
+// What the members are made from.
+struct FarLight::Parts {
+    Parts(const FarSource &source, const PupilEdges &edges)
+        : rims(source, edges),
+          visibility(std::make_shared<Visibility>(source, 1.1 * source.optics.aperture->diameter() *
+                                                              fringes_end * source.pixel())),
+          colours(source, edges, *visibility) {}
+    RimPoints rims;
+    std::shared_ptr<const Visibility> visibility;
+    EdgeColours colours;
+};
 
-FarLight::FarLight(const FarSource &source, const PupilEdges &edges, RimPoints rims)
+FarLight::FarLight(const FarSource &source, const PupilEdges &edges)
+    : FarLight(source, edges, Parts(source, edges)) {}
+
+FarLight::FarLight(const FarSource &source, const PupilEdges &edges, Parts parts)
     : nearest_(source.nearest), mirror_(source.settings.mirrored ? -1 : 1),
       fringes_per_pixel_(fringes_per_pixel(source)), spikes_(make_spikes(source, edges)),
-      halo_(source, edges, rims), rim_fringes_(source, edges, std::move(rims)) {}
+      halo_(source, edges, parts.rims),
+      edge_fringes_(source, parts.colours, parts.visibility, spikes_.fringes),
+      rim_fringes_(source, parts.colours, parts.visibility, std::move(parts.rims)) {}
 
 void FarLight::add(const PixelRow &row, double floor) const {
     halo_.add(row, floor);
@@ -62,6 +76,7 @@ void FarLight::add(const PixelRow &row, double floor) const {
         spike.add(row, floor);
     for (const Fringes &fringes : spikes_.fringes)
         fringes.add(row, floor);
+    edge_fringes_.add(row, floor);
     rim_fringes_.add(row, floor);
 }
 
@@ -117,7 +132,7 @@ double FarLight::brightest_beyond(double r) const {
         for (const Fringes &fringes : spikes_.fringes)
             if (std::abs(fringes.axes().across(on.axes().nx, on.axes().ny)) < same_direction)
                 sum += fringes.brightest(r);
-        sum += rim_fringes_.brightest(r, on.axes());
+        sum += edge_fringes_.brightest(r, on.axes()) + rim_fringes_.brightest(r, on.axes());
         most = std::max(most, sum);
     }
     return halo_.brightest(r) + most;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "image/view.hpp"
+#include "optics/far_edge_fringes.hpp"
 #include "optics/far_halo.hpp"
 #include "optics/far_rim_fringes.hpp"
 #include "optics/far_spikes.hpp"
@@ -58,14 +59,16 @@ class FarLight {
     Error relative_error(double r) const;
 
   private:
+    struct Parts;
     FarLight(const FarSource &source, const PupilEdges &edges);
-    FarLight(const FarSource &source, const PupilEdges &edges, RimPoints rims);
+    FarLight(const FarSource &source, const PupilEdges &edges, Parts parts);
     void add(const PixelRow &row, double floor) const;
 
     double nearest_, mirror_;
     double fringes_per_pixel_; // across the pupil, that light of all colours differs by
     Spikes spikes_;
     Halo halo_;
+    EdgeFringes edge_fringes_;
     RimFringes rim_fringes_;
 };
 

@@ -76,7 +76,7 @@ Stationary stationary(const Oval &o, const Wavefront &w, double ux, double uy, d
 // Fresnel's integral from 0 without the waves that come from x itself when it is far off: those are
 // a corner's light.
 Complex fresnel_nearby(double x) {
-    constexpr double whole = 1.2, none = 3;
+    constexpr double whole = 2, none = 5;
     const double a = std::abs(x), s = std::clamp((none - a) / (none - whole), 0.0, 1.0);
     const Complex far_off{0.5, 0.5};
     const Complex value = far_off + s * s * (3 - 2 * s) * (fresnel(a) - far_off);
@@ -121,7 +121,7 @@ bool lit(const Rim &rim, double angle) {
 
 } // namespace
 
-RimTable::Direction RimTable::direction(int i) {
+RimTable::Vector RimTable::direction(int i) {
     const double angle = 4.0 * i / directions, quarter = std::floor(angle), p = angle - quarter;
     const double norm = std::hypot(1 - p, p), x = (1 - p) / norm, y = p / norm;
     switch (static_cast<int>(quarter) & 3) {
@@ -140,6 +140,13 @@ void RimTable::close(std::vector<double> &table) {
     for (int i = 0; i < directions; ++i)
         table[entry(i, 0)] = table[entry(i, 1)];
     std::copy_n(table.begin(), columns, table.end() - columns);
+}
+
+RimTable::Vector RimPoint::position(double ux, double uy) const {
+    const double a = ux * oval.half_width + uy * oval.shear, b = uy * oval.half_height;
+    const double norm = side / std::hypot(a, b);
+    return {oval.x + oval.half_width * a * norm,
+            oval.y + (oval.shear * a + oval.half_height * b) * norm};
 }
 
 RimPoints::RimPoints(const FarSource &source, const PupilEdges &edges)

@@ -21,15 +21,14 @@ namespace wfpsf {
 
 // Where a table by direction and by sqrt(nearest / r) is read.
 struct RimTable {
-    static constexpr int directions = 1440, distances = 12;
+    static constexpr int directions = 1440, distances = 24;
     static constexpr ptrdiff_t columns = distances + 1;
     static constexpr size_t size = static_cast<size_t>(directions + 1) * columns;
 
-    // A unit vector.
-    struct Direction {
+    struct Vector {
         double x, y;
     };
-    static Direction direction(int i);
+    static Vector direction(int i); // of length one
     static double distance(int j, double nearest) {
         return nearest * std::pow(static_cast<double>(distances) / j, 2);
     }
@@ -64,6 +63,7 @@ struct RimPoint {
     std::vector<double> waves;  // wavefront there by direction, at the mean wavelength
     double most = 0;            // of the amplitudes
 
+    RimTable::Vector position(double ux, double uy) const; // m
     // Along (x, y), times its length.
     [[gnu::always_inline]] double place(double x, double y) const {
         return oval.x * x + oval.y * y +

@@ -8,6 +8,7 @@
 #include "optics/fresnel.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -99,12 +100,6 @@ double FarSource::mean_wavelength(int power) const {
 // --------------------------------------------------------------------------------------- one spike
 
 namespace {
-
-// 1 in the inner two thirds of -1..1, smoothly to 0 outside.
-[[gnu::always_inline]] inline double within(double t) {
-    const double s = std::clamp(3 * (1 - std::abs(t)), 0.0, 1.0);
-    return s * s * (3 - 2 * s);
-}
 
 // What is left of the light of an edge's end where an arc goes on from it smoothly, by the place of
 // the arc's point of stationary phase: the end's amplitude, 1 / (pi x), less Fresnel's tail.
@@ -235,6 +230,8 @@ WFPSF_VECTORISED void add_fringes(const FringeTable &fringes, double side, doubl
 } // namespace
 
 double Fringes::brightest(double r) const {
+    if (r > end_)
+        return 0;
     const double row = (r - nearest_) * per_along_;
     const auto last = static_cast<double>(rows_ - 1);
     return most_[static_cast<size_t>(std::clamp(row, 0.0, last))] / (r * r);
@@ -242,7 +239,8 @@ double Fringes::brightest(double r) const {
 
 void Fringes::add(const PixelRow &row, double floor) const {
     const double reach = static_cast<double>(columns_ / 2 - 2) / per_across_;
-    const auto runs = runs_along(axes_, row, reach, nearest_, std::sqrt(most_.front() / floor));
+    const double farthest = std::min(end_, std::sqrt(most_.front() / floor));
+    const auto runs = runs_along(axes_, row, reach, nearest_, farthest);
     for (const Run &run : runs) {
         const PixelRow part = row.part(run.first, run.last);
         const double middle = part.x + static_cast<double>(part.light.size() - 1) / 2;
@@ -439,9 +437,8 @@ class SpikeTables {
         for (size_t q = 0; q < source_.spectrum.size(); ++q) {
             const double wavelength = source_.spectrum.wavelength[q];
             const double turn = source_.pixel() * step_ / wavelength;
-            const Complex wave =
-                std::polar(normal / tangent / (2 * pi),
-                           2 * pi * source_.wavefront(wavelength)(x, y) - pi / 2);
+            const Complex wave = std::polar(normal / tangent / (2 * pi),
+                                            2 * pi * source_.wavefront(wavelength)(x, y) - pi / 2);
             add_wave(wave, -turn * static_cast<double>(wide) * s, turn * s, edge.slope[q].re,
                      edge.slope[q].im);
         }
@@ -565,6 +562,7 @@ class SpikeTables {
         Fringes out;
         double nx = 0, ny = 0;
         for (const EdgeWaves *e : group) {
+            out.members_.push_back(static_cast<size_t>(e - edges_.data()));
             const double side = e->axes.nx * group[0]->axes.nx + e->axes.ny * group[0]->axes.ny;
             nx += std::copysign(e->length, side) * e->axes.nx;
             ny += std::copysign(e->length, side) * e->axes.ny;
@@ -589,6 +587,8 @@ class SpikeTables {
             std::floor(blue / ((right - left) * source_.pixel() * per_wave * step_)), 1.0, 4.0);
         const double step = steps * step_;
         out.nearest_ = source_.nearest;
+        // What an edge makes with its arcs stays the same from there on.
+        out.end_ = group.size() > 1 ? end : std::numeric_limits<double>::infinity();
         out.per_along_ = 1 / along_step;
         out.per_across_ = 1 / step;
         out.rows_ =

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "optics/far_edge_fringes.hpp"
+
+#include "numerics/dispatch.hpp"
+#include "numerics/phasor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace wfpsf {
+
+EdgeFringes::EdgeFringes(const FarSource &source, const EdgeColours &colours,
+                         std::shared_ptr<const Visibility> visibility,
+                         const std::vector<Fringes> &tables)
+    : visibility_(std::move(visibility)), pixel_(source.pixel()),
+      scale_(1 / (2 * std::numbers::pi * std::numbers::pi * source.area())),
+      reach_(colours.reach()), per_across_(colours.per_across()) {
+    const auto &wavenumber = visibility_->wavenumbers();
+    const double mean = 1 / source.mean_wavelength();
+    for (const Fringes &table : tables) {
+        if (!(table.end() < fringes_end))
+            continue;
+        Group group{table.axes(), table.end(), 0, 0, {}};
+        const std::vector<size_t> &members = table.members();
+        for (const size_t a : members) {
+            const EdgeColours::Edge &first = colours.edges()[a];
+            const double turned = std::abs(group.axes.across(first.axes.nx, first.axes.ny));
+            group.reach = std::max(group.reach, reach_ + turned * fringes_end);
+            for (const size_t b : members) {
+                if (b <= a)
+                    continue;
+                const EdgeColours::Edge &second = colours.edges()[b];
+                // The response to two points is taken for the product of each one's to the other
+                // edge's middle over that to both middles.
+                Pair pair{{first, second},
+                          {colours.waves(first, second.x, second.y),
+                           colours.waves(second, first.x, first.y)}};
+                for (size_t m = 0; m < far_colours; ++m) {
+                    constexpr double least = 0.2; // where that fails
+                    const double both =
+                        colours.response(first.x - second.x, first.y - second.y, wavenumber[m]);
+                    const double scale =
+                        std::abs(both) < least ? 0 : std::sqrt(wavenumber[m] / mean) / both;
+                    for (ColourWaves &wave : pair.waves[0]) {
+                        wave.re[m] *= scale;
+                        wave.im[m] *= scale;
+                    }
+                }
+                const double path =
+                    std::abs(group.axes.along(first.x - second.x, first.y - second.y)) *
+                        group.begin -
+                    (first.length + second.length) / 2 * reach_;
+                group.most += scale_ * most(pair.waves[0]) * most(pair.waves[1]) *
+                              visibility_->most(path * pixel_);
+                group.pairs.push_back(std::move(pair));
+            }
+        }
+        groups_.push_back(std::move(group));
+    }
+}
+
+namespace {
+
+struct PairTable {
+    const std::array<EdgeColours::Edge, 2> &edges;
+    const ColourWaves *first, *second; // one step before the position -reach
+    const ColourWaves *visibility;
+    double per_path, longest, middle;
+    double pixel, scale, reach, per_across;
+};
+
+WFPSF_VECTORISED void add_pair(const PairTable &pair, double x0, double y, size_t n,
+                               double *light) {
+    const auto &[a, b] = pair.edges;
+    const double last = 2 * pair.reach * pair.per_across;
+    for (size_t i = 0; i < n; ++i) {
+        const double x = x0 + static_cast<double>(i), r2 = x * x + y * y;
+        const double across_a = a.axes.across(x, y), across_b = b.axes.across(x, y);
+        const double path = pair.pixel * ((a.x - b.x) * x + (a.y - b.y) * y);
+        const double entry = std::min(std::abs(path) * pair.per_path, pair.longest);
+        const double column_a = std::clamp((across_a + pair.reach) * pair.per_across, 0.0, last);
+        const double column_b = std::clamp((across_b + pair.reach) * pair.per_across, 0.0, last);
+        const auto cell = static_cast<int32_t>(entry);
+        const auto left_a = static_cast<int32_t>(column_a), left_b = static_cast<int32_t>(column_b);
+        const CubicWeights of_path(entry - cell), of_a(column_a - left_a), of_b(column_b - left_b);
+        const double sign = path < 0 ? -1 : 1;
+        double sum_re = 0, sum_im = 0;
+        for (size_t m = 0; m < far_colours; ++m) {
+            double v_re, v_im, a_re, a_im, b_re, b_im;
+            of_path.read(pair.visibility + cell, m, v_re, v_im);
+            of_a.read(pair.first + left_a, m, a_re, a_im);
+            of_b.read(pair.second + left_b, m, b_re, b_im);
+            v_im *= sign;
+            const double re = a_re * b_re + a_im * b_im, im = a_im * b_re - a_re * b_im;
+            sum_re += v_re * re - v_im * im;
+            sum_im += v_re * im + v_im * re;
+        }
+        double cosine, sine;
+        phasor(path * pair.middle, cosine, sine);
+        light[i] += pair.scale * a.axes.along(x, y) * b.axes.along(x, y) / (r2 * r2) *
+                    within(across_a / pair.reach) * within(across_b / pair.reach) *
+                    (sum_re * cosine - sum_im * sine);
+    }
+}
+
+} // namespace
+
+double EdgeFringes::brightest(double r, const SpikeAxes &spike) const {
+    double sum = 0;
+    for (const Group &group : groups_)
+        if (r < fringes_end && std::abs(group.axes.across(spike.nx, spike.ny)) < same_direction)
+            sum += group.most / std::pow(std::max(r, group.begin), 2);
+    return sum;
+}
+
+void EdgeFringes::add(const PixelRow &row, double floor) const {
+    for (const Group &group : groups_) {
+        const double end = std::min(fringes_end, std::sqrt(group.most / floor));
+        for (const Run &run : runs_along(group.axes, row, group.reach, group.begin, end)) {
+            const PixelRow part = row.part(run.first, run.last);
+            for (const Pair &pair : group.pairs)
+                add_pair({pair.edges, pair.waves[0].data() + 1, pair.waves[1].data() + 1,
+                          visibility_->table(), visibility_->per_path(), visibility_->longest(),
+                          visibility_->middle(), pixel_, scale_, reach_, per_across_},
+                         part.x, part.y, part.light.size(), part.light.data());
+        }
+    }
+}
+
+} // namespace wfpsf
