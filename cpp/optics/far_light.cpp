@@ -68,7 +68,8 @@ FarLight::FarLight(const FarSource &source, const PupilEdges &edges, Parts parts
       fringes_per_pixel_(fringes_per_pixel(source)), spikes_(make_spikes(source, edges)),
       halo_(source, edges, parts.rims),
       edge_fringes_(source, parts.colours, parts.visibility, spikes_.fringes),
-      rim_fringes_(source, parts.colours, parts.visibility, std::move(parts.rims)) {}
+      rim_fringes_(source, edges, parts.colours, parts.visibility, spikes_.fringes,
+                   std::move(parts.rims)) {}
 
 void FarLight::add(const PixelRow &row, double floor) const {
     halo_.add(row, floor);

@@ -23,13 +23,27 @@ double ring(double nearest, size_t j) {
 
 // ---------------------------------------------------------------------------------- making of them
 
-RimFringes::RimFringes(const FarSource &source, const EdgeColours &colours,
-                       std::shared_ptr<const Visibility> visibility, RimPoints rims)
+RimFringes::RimFringes(const FarSource &source, const PupilEdges &edges, const EdgeColours &colours,
+                       std::shared_ptr<const Visibility> visibility,
+                       const std::vector<Fringes> &tables, RimPoints rims)
     : rims_(std::move(rims)), visibility_(std::move(visibility)), pixel_(source.pixel()),
       scale_(1 / (2 * pi * pi * source.area())), reach_(colours.reach()),
       per_across_(colours.per_across()) {
-    for (const EdgeColours::Edge &of : colours.edges()) {
-        Edge edge{of, pairs(colours, of), {}};
+    std::vector<std::vector<End>> joined(edges.straight.size());
+    for (const Junction &junction : junctions(edges)) {
+        if (!(junction.kink < widest_kink))
+            continue;
+        const auto &[from_x, from_y, to_x, to_y] = edges.straight[junction.straight];
+        const End end{edges.curved[junction.curved].oval, junction.at_to ? to_x : from_x,
+                      junction.at_to ? to_y : from_y};
+        for (const Fringes &table : tables)
+            if (std::ranges::count(table.members(), junction.straight) > 0)
+                for (const size_t member : table.members())
+                    joined[member].push_back(end);
+    }
+    for (size_t i = 0; i < colours.edges().size(); ++i) {
+        const EdgeColours::Edge &of = colours.edges()[i];
+        Edge edge{of, pairs(colours, of, joined[i]), {}};
         for (size_t j = 0; ring(rims_.nearest, j) < fringes_end; ++j)
             edge.most.push_back(most(edge, ring(rims_.nearest, j)));
         edge.most.push_back(0);
@@ -56,7 +70,8 @@ bool RimFringes::lit(const RimPoint &point, double nx, double ny) const {
 }
 
 std::vector<RimFringes::Pair> RimFringes::pairs(const EdgeColours &colours,
-                                                const EdgeColours::Edge &edge) const {
+                                                const EdgeColours::Edge &edge,
+                                                const std::vector<End> &joined) const {
     std::vector<Pair> out;
     const auto &[nx, ny] = edge.axes;
     for (size_t front = 0; front < rims_.points.size(); ++front) {
@@ -66,6 +81,12 @@ std::vector<RimFringes::Pair> RimFringes::pairs(const EdgeColours &colours,
         if (!seen[0] && !seen[1])
             continue;
         const auto [x, y] = point.position(nx, ny);
+        const Oval &oval = point.oval;
+        if (std::ranges::any_of(joined, [&](const End &end) { // on the point's half of the oval
+                return end.oval == oval &&
+                       (x - oval.x) * (end.x - oval.x) + (y - oval.y) * (end.y - oval.y) > 0;
+            }))
+            continue;
         out.push_back({{front, behind}, seen, colours.waves(edge, x, y)});
     }
     return out;

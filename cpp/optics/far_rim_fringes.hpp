@@ -14,8 +14,10 @@ namespace wfpsf {
 
 class RimFringes {
   public:
-    RimFringes(const FarSource &source, const EdgeColours &colours,
-               std::shared_ptr<const Visibility> visibility, RimPoints rims);
+    // Those that are in the tables already are left out.
+    RimFringes(const FarSource &source, const PupilEdges &edges, const EdgeColours &colours,
+               std::shared_ptr<const Visibility> visibility, const std::vector<Fringes> &tables,
+               RimPoints rims);
 
     // Adds fractions of the light, where they may be above the floor.
     void add(const PixelRow &row, double floor) const;
@@ -37,7 +39,13 @@ class RimFringes {
     };
 
     bool lit(const RimPoint &point, double nx, double ny) const;
-    std::vector<Pair> pairs(const EdgeColours &colours, const EdgeColours::Edge &edge) const;
+    // `joined`: curved edges' ends that belong to the edge's spike.
+    struct End {
+        Oval oval;
+        double x, y;
+    };
+    std::vector<Pair> pairs(const EdgeColours &colours, const EdgeColours::Edge &edge,
+                            const std::vector<End> &joined) const;
     double most(const Edge &edge, double r) const;
 
     RimPoints rims_;

@@ -24,11 +24,6 @@ struct Rim {
     std::vector<Arc> arcs;
 };
 
-bool same(const Oval &a, const Oval &b) {
-    return a.x == b.x && a.y == b.y && a.half_width == b.half_width && a.shear == b.shear &&
-           a.half_height == b.half_height;
-}
-
 std::vector<Rim> rims(const PupilEdges &edges) {
     std::vector<Rim> out;
     const std::vector<Junction> joined = junctions(edges);
@@ -38,7 +33,7 @@ std::vector<Rim> rims(const PupilEdges &edges) {
         for (const Junction &junction : joined)
             if (junction.curved == c && junction.kink < smooth_kink)
                 (junction.at_begin ? arc.smooth_begin : arc.smooth_end) = true;
-        auto rim = std::ranges::find_if(out, [&](const Rim &r) { return same(r.oval, edge.oval); });
+        auto rim = std::ranges::find_if(out, [&](const Rim &r) { return r.oval == edge.oval; });
         if (rim == out.end())
             rim = out.insert(out.end(), {edge.oval, {}});
         rim->arcs.push_back(arc);

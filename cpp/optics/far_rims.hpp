@@ -66,8 +66,8 @@ struct RimPoint {
     RimTable::Vector position(double ux, double uy) const; // m
     // Along (x, y), times its length.
     [[gnu::always_inline]] double place(double x, double y) const {
-        return oval.x * x + oval.y * y +
-               side * std::hypot(oval.half_width * x + oval.shear * y, oval.half_height * y);
+        const double a = oval.half_width * x + oval.shear * y, b = oval.half_height * y;
+        return oval.x * x + oval.y * y + side * std::sqrt(a * a + b * b);
     }
 };
 

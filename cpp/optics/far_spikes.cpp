@@ -385,8 +385,8 @@ class SpikeTables {
     static constexpr std::ptrdiff_t half = 256;       // of a profile, steps
     static constexpr std::ptrdiff_t filter_half = 20; // of the pixel's filter, steps
     static constexpr std::ptrdiff_t wide = half + 1 + filter_half;
-    static constexpr double widest_group = 7 * pi / 180;      // between neighbours in a group
-    static constexpr double widest_kink = 0.2, smooth = 0.01; // radians
+    static constexpr double widest_group = 7 * pi / 180; // between neighbours in a group
+    static constexpr double smooth = 0.01;               // radians
 
     EdgeWaves waves(const StraightEdge &edge) const {
         const double dx = edge.to_x - edge.from_x, dy = edge.to_y - edge.from_y;

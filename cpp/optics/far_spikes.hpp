@@ -74,6 +74,10 @@ std::vector<Run> runs_along(const SpikeAxes &axes, const PixelRow &row, double r
 // Spikes that are so close in angle, radians, may lie on each other.
 inline constexpr double same_direction = 0.25;
 
+// Radians that the outline may turn by at an edge's end for a curved edge beyond to belong to the
+// edge's spike.
+inline constexpr double widest_kink = 0.2;
+
 // No fringes from there on, native pixels.
 inline constexpr double fringes_end = 640;
 
