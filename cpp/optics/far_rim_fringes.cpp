@@ -41,75 +41,61 @@ RimFringes::RimFringes(const FarSource &source, const PupilEdges &edges, const E
                 for (const size_t member : table.members())
                     joined[member].push_back(end);
     }
-    for (size_t i = 0; i < colours.edges().size(); ++i) {
-        const EdgeColours::Edge &of = colours.edges()[i];
-        Edge edge{of, pairs(colours, of, joined[i]), {}};
-        for (size_t j = 0; ring(rims_.nearest, j) < fringes_end; ++j)
-            edge.most.push_back(most(edge, ring(rims_.nearest, j)));
-        edge.most.push_back(0);
-        for (size_t j = edge.most.size() - 1; j-- > 0;)
-            edge.most[j] = std::max(edge.most[j], edge.most[j + 1]);
-        edges_.push_back(std::move(edge));
-    }
+    for (size_t i = 0; i < colours.edges().size(); ++i)
+        edges_.push_back(edge(colours, colours.edges()[i], joined[i]));
 }
 
-// Whether a point sends light in about that direction.
-bool RimFringes::lit(const RimPoint &point, double nx, double ny) const {
-    constexpr double per_radian = RimTable::directions / (2 * pi), faint = 1e-3;
-    const auto middle = static_cast<int>(diamond(nx, ny) * RimTable::directions / 4);
-    const auto half = static_cast<int>(1.5 * per_radian * std::min(1.0, reach_ / rims_.nearest));
-    for (int i = -half; i <= half; ++i) {
-        const int row = (middle + i + RimTable::directions) % RimTable::directions;
-        for (int j = 1; j <= RimTable::distances; ++j) {
-            const size_t entry = RimTable::entry(row, j);
-            if (std::abs(point.re[entry]) + std::abs(point.im[entry]) > faint * point.most)
-                return true;
-        }
-    }
-    return false;
-}
-
-std::vector<RimFringes::Pair> RimFringes::pairs(const EdgeColours &colours,
-                                                const EdgeColours::Edge &edge,
-                                                const std::vector<End> &joined) const {
-    std::vector<Pair> out;
-    const auto &[nx, ny] = edge.axes;
+RimFringes::Edge RimFringes::edge(const EdgeColours &colours, const EdgeColours::Edge &of,
+                                  const std::vector<End> &joined) const {
+    Edge out{of};
+    const auto &[nx, ny] = of.axes;
     for (size_t front = 0; front < rims_.points.size(); ++front) {
-        const size_t behind = front ^ 1U;
-        const RimPoint &point = rims_.points[front];
-        const std::array<bool, 2> seen{lit(point, nx, ny), lit(rims_.points[behind], -nx, -ny)};
-        if (!seen[0] && !seen[1])
-            continue;
-        const auto [x, y] = point.position(nx, ny);
-        const Oval &oval = point.oval;
+        const Oval &oval = rims_.points[front].oval;
+        const auto [x, y] = rims_.points[front].position(nx, ny);
         if (std::ranges::any_of(joined, [&](const End &end) { // on the point's half of the oval
                 return end.oval == oval &&
                        (x - oval.x) * (end.x - oval.x) + (y - oval.y) * (end.y - oval.y) > 0;
             }))
             continue;
-        out.push_back({{front, behind}, seen, colours.waves(edge, x, y)});
+        out.waves.push_back(colours.waves(of, x, y));
+        for (const size_t side : {0, 1}) {
+            // What is in front is behind on the star's other side.
+            Pair pair{front ^ side, out.waves.size() - 1, {}};
+            for (size_t j = 0; ring(rims_.nearest, j) < fringes_end; ++j)
+                pair.most.push_back(most(out, pair, side, ring(rims_.nearest, j)));
+            pair.most.push_back(0);
+            for (size_t j = pair.most.size() - 1; j-- > 0;)
+                pair.most[j] = std::max(pair.most[j], pair.most[j + 1]);
+            out.pairs[side].push_back(std::move(pair));
+        }
+    }
+    for (std::vector<Pair> &pairs : out.pairs) {
+        double all = 0;
+        for (const Pair &pair : pairs)
+            all += pair.most[0];
+        constexpr double faint = 0.01;
+        std::erase_if(pairs, [&](const Pair &pair) { return pair.most[0] < faint * all; });
     }
     return out;
 }
 
-double RimFringes::most(const Edge &edge, double r) const {
+double RimFringes::most(const Edge &edge, const Pair &pair, size_t side, double r) const {
     const auto &[axes, x, y, length] = edge.edge;
-    const double differs = length * reach_ * pixel_; // path, between the spike's line and its sides
-    double most = 0;
-    for (const size_t side : {0, 1}) {
-        const double way = side == 0 ? 1 : -1;
-        double sum = 0;
-        for (const Pair &pair : edge.pairs) {
-            if (!pair.lit[side])
-                continue;
-            const RimPoint &point = rims_.points[pair.point[side]];
-            const double apart = way * axes.along(x, y) - point.place(way * axes.nx, way * axes.ny);
-            sum += wfpsf::most(pair.waves) * point.most *
-                   visibility_->most(std::abs(apart) * r * pixel_ - differs);
+    const double way = side == 0 ? 1 : -1, ux = way * axes.nx, uy = way * axes.ny;
+    const RimPoint &point = rims_.points[pair.point];
+    const auto place = RimTable::place(ux, uy, rims_.nearest / r);
+    const auto width = static_cast<int>(reach_ / r * RimTable::directions / 4) + 1;
+    double amplitude = 0;
+    for (int i = -width; i <= width + 1; ++i)
+        for (const int j : {place.column, place.column + 1}) {
+            const size_t entry =
+                RimTable::entry((place.row + i + RimTable::directions) % RimTable::directions, j);
+            amplitude = std::max(amplitude, std::hypot(point.re[entry], point.im[entry]));
         }
-        most = std::max(most, sum);
-    }
-    return most * scale_ / (r * r * std::sqrt(r * pixel_ / rims_.wavelength));
+    const double path = std::abs(way * axes.along(x, y) - point.place(ux, uy)) * r -
+                        length * reach_; // to the spike's sides
+    return scale_ * wfpsf::most(edge.waves[pair.waves]) * amplitude *
+           visibility_->most(path * pixel_) / (r * r * std::sqrt(r * pixel_ / rims_.wavelength));
 }
 
 // ----------------------------------------------------------------------------------------- drawing
@@ -161,36 +147,60 @@ WFPSF_VECTORISED void add_pair(const PairTable &pair, double x0, double y, size_
     }
 }
 
+// The part of a run that is no farther along than `end`, on its side of the star.
+Run nearer(const SpikeAxes &axes, const PixelRow &row, Run run, double end) {
+    const double x = (end - axes.ny * row.y) / axes.nx - row.x; // where along = end
+    if (axes.nx * end > 0)
+        run.last = std::min(run.last, static_cast<int64_t>(std::floor(std::min(x, 1e9))));
+    else if (axes.nx * end < 0)
+        run.first = std::max(run.first, static_cast<int64_t>(std::ceil(std::max(x, -1e9))));
+    return run;
+}
+
 } // namespace
 
 double RimFringes::brightest(double r, const SpikeAxes &spike) const {
     const auto at =
         static_cast<size_t>(std::max(0.0, rings_per_octave * std::log2(r / rims_.nearest)));
     double sum = 0;
-    for (const Edge &edge : edges_)
-        if (std::abs(edge.edge.axes.across(spike.nx, spike.ny)) < same_direction)
-            sum += edge.most[std::min(at, edge.most.size() - 1)];
+    for (const Edge &edge : edges_) {
+        if (std::abs(edge.edge.axes.across(spike.nx, spike.ny)) > same_direction)
+            continue;
+        double most = 0;
+        for (const std::vector<Pair> &pairs : edge.pairs) {
+            double all = 0;
+            for (const Pair &pair : pairs)
+                all += pair.most[std::min(at, pair.most.size() - 1)];
+            most = std::max(most, all);
+        }
+        sum += most;
+    }
     return sum;
 }
 
 void RimFringes::add(const PixelRow &row, double floor) const {
+    const auto end = [&](const Pair &pair) {
+        const auto faint = std::ranges::find_if(pair.most, [&](double m) { return m <= floor; });
+        return std::min(fringes_end,
+                        ring(rims_.nearest, static_cast<size_t>(faint - pair.most.begin())));
+    };
     for (const Edge &edge : edges_) {
         const SpikeAxes &axes = edge.edge.axes;
-        const auto below = std::ranges::find_if(edge.most, [&](double m) { return m <= floor; });
-        const double end = std::min(
-            fringes_end, ring(rims_.nearest, static_cast<size_t>(below - edge.most.begin())));
-        for (const Run &run : runs_along(axes, row, reach_, rims_.nearest, end)) {
-            const PixelRow part = row.part(run.first, run.last);
-            const double middle = part.x + static_cast<double>(part.light.size() - 1) / 2;
-            const size_t side = axes.along(middle, part.y) < 0 ? 1 : 0;
-            for (const Pair &pair : edge.pairs)
-                if (pair.lit[side])
-                    add_pair({edge.edge, pair.waves.data() + 1, rims_.points[pair.point[side]],
-                              visibility_->table(), visibility_->per_path(), visibility_->longest(),
-                              visibility_->middle(), rims_.wavelength, pixel_,
-                              scale_ / std::sqrt(pixel_ / rims_.wavelength), rims_.nearest, reach_,
-                              per_across_},
-                             part.x, part.y, part.light.size(), part.light.data());
+        for (const Run &run : runs_along(axes, row, reach_, rims_.nearest, fringes_end)) {
+            const auto middle = static_cast<double>(run.first + run.last) / 2;
+            const bool behind = axes.along(row.x + middle, row.y) < 0;
+            for (const Pair &pair : edge.pairs[behind ? 1 : 0]) {
+                const Run lit = nearer(axes, row, run, behind ? -end(pair) : end(pair));
+                if (lit.first > lit.last)
+                    continue;
+                const PixelRow part = row.part(lit.first, lit.last);
+                add_pair({edge.edge, edge.waves[pair.waves].data() + 1, rims_.points[pair.point],
+                          visibility_->table(), visibility_->per_path(), visibility_->longest(),
+                          visibility_->middle(), rims_.wavelength, pixel_,
+                          scale_ / std::sqrt(pixel_ / rims_.wavelength), rims_.nearest, reach_,
+                          per_across_},
+                         part.x, part.y, part.light.size(), part.light.data());
+            }
         }
     }
 }

@@ -26,27 +26,25 @@ class RimFringes {
     double brightest(double r, const SpikeAxes &spike) const;
 
   private:
-    // An edge with one point of an oval, which is in front on one side of the star.
+    // With the light of a point.
     struct Pair {
-        std::array<size_t, 2> point;    // before the star and behind
-        std::array<bool, 2> lit;        // likewise
-        std::vector<ColourWaves> waves; // of the edge
+        size_t point;
+        size_t waves;             // of the edge: which
+        std::vector<double> most; // from each ring on
     };
     struct Edge {
         EdgeColours::Edge edge;
-        std::vector<Pair> pairs;
-        std::vector<double> most; // from each ring on
+        std::vector<std::vector<ColourWaves>> waves = {};
+        std::array<std::vector<Pair>, 2> pairs = {}; // on either side of the star
     };
-
-    bool lit(const RimPoint &point, double nx, double ny) const;
     // `joined`: curved edges' ends that belong to the edge's spike.
     struct End {
         Oval oval;
         double x, y;
     };
-    std::vector<Pair> pairs(const EdgeColours &colours, const EdgeColours::Edge &edge,
-                            const std::vector<End> &joined) const;
-    double most(const Edge &edge, double r) const;
+    Edge edge(const EdgeColours &colours, const EdgeColours::Edge &of,
+              const std::vector<End> &joined) const;
+    double most(const Edge &edge, const Pair &pair, size_t side, double r) const;
 
     RimPoints rims_;
     std::shared_ptr<const Visibility> visibility_;

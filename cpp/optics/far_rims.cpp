@@ -70,11 +70,15 @@ Stationary stationary(const Oval &o, const Wavefront &w, double ux, double uy, d
 
 // Fresnel's integral from 0 without the waves that come from x itself when it is far off: those are
 // a corner's light.
+constexpr Complex far_off{0.5, 0.5};
 Complex fresnel_nearby(double x) {
     constexpr double whole = 2, none = 5;
-    const double a = std::abs(x), s = std::clamp((none - a) / (none - whole), 0.0, 1.0);
-    const Complex far_off{0.5, 0.5};
-    const Complex value = far_off + s * s * (3 - 2 * s) * (fresnel(a) - far_off);
+    const double a = std::abs(x);
+    Complex value = far_off;
+    if (a < none) {
+        const double s = std::min((none - a) / (none - whole), 1.0);
+        value += s * s * (3 - 2 * s) * (fresnel(a) - far_off);
+    }
     return x < 0 ? -value : value;
 }
 
@@ -89,9 +93,8 @@ Complex seen(const Arc &arc, double angle, double per_radian) {
     const double end = (arc.end - middle - off) * per_radian;
     if ((arc.smooth_begin && begin > 0) || (arc.smooth_end && end < 0))
         return 0;
-    constexpr double far_off = 1e3;
-    return fresnel_nearby(arc.smooth_end ? far_off : end) -
-           fresnel_nearby(arc.smooth_begin ? -far_off : begin);
+    return (arc.smooth_end ? far_off : fresnel_nearby(end)) -
+           (arc.smooth_begin ? -far_off : fresnel_nearby(begin));
 }
 
 // The amplitude over exp(2 pi i (k place + waves)), times k^(3/2) 2 pi i.
