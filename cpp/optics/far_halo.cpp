@@ -15,9 +15,9 @@ constexpr double pi = std::numbers::pi;
 
 } // namespace
 
-Halo::Halo(const FarSource &source, const PupilEdges &edges, const RimPoints &rims)
+Halo::Halo(const FarSource &source, const PupilEdges &edges, const std::vector<RimPoint> &points)
     : nearest_(source.nearest), table_(RimTable::size) {
-    const double wavelength = rims.wavelength;
+    const double wavelength = source.mean_wavelength();
     double spread = 0; // variance of 1 / wavelength
     for (size_t q = 0; q < source.spectrum.size(); ++q)
         spread += source.spectrum.weight[q] *
@@ -33,7 +33,7 @@ Halo::Halo(const FarSource &source, const PupilEdges &edges, const RimPoints &ri
             std::vector<std::complex<double>> amplitudes;
             std::vector<double> places;
             double sum = 0;
-            for (const RimPoint &point : rims.points) {
+            for (const RimPoint &point : points) {
                 const std::complex<double> table{point.re[entry], point.im[entry]};
                 if (table == 0.0)
                     continue;

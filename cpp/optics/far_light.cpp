@@ -51,14 +51,50 @@ FarLight::FarLight(const Optics &optics, const Light &light, const PsfSettings &
 // What the members are made from.
 struct FarLight::Parts {
     Parts(const FarSource &source, const PupilEdges &edges)
-        : rims(source, edges),
+        : rims(rim_points(source, edges)),
           visibility(std::make_shared<Visibility>(source, 1.1 * source.optics.aperture->diameter() *
                                                               fringes_end * source.pixel())),
           colours(source, edges, *visibility) {}
-    RimPoints rims;
+    std::vector<RimPoint> rims;
     std::shared_ptr<const Visibility> visibility;
     EdgeColours colours;
 };
+
+namespace {
+
+// Edges of about one direction, which the tables hold with what goes on from their ends.
+bool together(const std::vector<Fringes> &tables, size_t a, size_t b) {
+    return a == b || std::ranges::any_of(tables, [&](const Fringes &table) {
+               return std::ranges::count(table.members(), a) > 0 &&
+                      std::ranges::count(table.members(), b) > 0;
+           });
+}
+
+PointFringes<RimPoint>::Known known_rims(const PupilEdges &edges,
+                                         const std::vector<Fringes> &tables) {
+    return [&, joined = junctions(edges)](size_t edge, const RimPoint &point) {
+        const auto &[from_x, from_y, to_x, to_y] = edges.straight[edge];
+        const auto [x, y] = point.position(to_y - from_y, from_x - to_x);
+        return std::ranges::any_of(joined, [&](const Junction &junction) {
+            const StraightEdge &other = edges.straight[junction.straight];
+            const double at_x = junction.at_to ? other.to_x : other.from_x;
+            const double at_y = junction.at_to ? other.to_y : other.from_y;
+            const Oval &o = point.oval;
+            return junction.kink < widest_kink && edges.curved[junction.curved].oval == o &&
+                   (x - o.x) * (at_x - o.x) + (y - o.y) * (at_y - o.y) > 0 && // the same half
+                   together(tables, edge, junction.straight);
+        });
+    };
+}
+
+PointFringes<Corner>::Known known_corners(const std::vector<Fringes> &tables) {
+    return [&](size_t edge, const Corner &corner) {
+        return std::ranges::any_of(corner.straight,
+                                   [&](size_t other) { return together(tables, edge, other); });
+    };
+}
+
+} // namespace
 
 FarLight::FarLight(const FarSource &source, const PupilEdges &edges)
     : FarLight(source, edges, Parts(source, edges)) {}
@@ -68,8 +104,10 @@ FarLight::FarLight(const FarSource &source, const PupilEdges &edges, Parts parts
       fringes_per_pixel_(fringes_per_pixel(source)), spikes_(make_spikes(source, edges)),
       halo_(source, edges, parts.rims),
       edge_fringes_(source, parts.colours, parts.visibility, spikes_.fringes),
-      rim_fringes_(source, edges, parts.colours, parts.visibility, spikes_.fringes,
-                   std::move(parts.rims)) {}
+      rim_fringes_(source, parts.colours, parts.visibility, std::move(parts.rims),
+                   known_rims(edges, spikes_.fringes)),
+      corner_fringes_(source, parts.colours, parts.visibility, corners(source, edges),
+                      known_corners(spikes_.fringes)) {}
 
 void FarLight::add(const PixelRow &row, double floor) const {
     halo_.add(row, floor);
@@ -79,6 +117,7 @@ void FarLight::add(const PixelRow &row, double floor) const {
         fringes.add(row, floor);
     edge_fringes_.add(row, floor);
     rim_fringes_.add(row, floor);
+    corner_fringes_.add(row, floor);
 }
 
 double FarLight::at(double x, double y) const {
@@ -133,7 +172,8 @@ double FarLight::brightest_beyond(double r) const {
         for (const Fringes &fringes : spikes_.fringes)
             if (std::abs(fringes.axes().across(on.axes().nx, on.axes().ny)) < same_direction)
                 sum += fringes.brightest(r);
-        sum += edge_fringes_.brightest(r, on.axes()) + rim_fringes_.brightest(r, on.axes());
+        sum += edge_fringes_.brightest(r, on.axes()) + rim_fringes_.brightest(r, on.axes()) +
+               corner_fringes_.brightest(r, on.axes());
         most = std::max(most, sum);
     }
     return halo_.brightest(r) + most;

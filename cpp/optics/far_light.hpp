@@ -7,7 +7,7 @@
 #include "image/view.hpp"
 #include "optics/far_edge_fringes.hpp"
 #include "optics/far_halo.hpp"
-#include "optics/far_rim_fringes.hpp"
+#include "optics/far_point_fringes.hpp"
 #include "optics/far_spikes.hpp"
 
 #include <vector>
@@ -69,7 +69,8 @@ class FarLight {
     Spikes spikes_;
     Halo halo_;
     EdgeFringes edge_fringes_;
-    RimFringes rim_fringes_;
+    PointFringes<RimPoint> rim_fringes_;
+    PointFringes<Corner> corner_fringes_;
 };
 
 } // namespace wfpsf

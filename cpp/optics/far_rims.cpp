@@ -72,13 +72,8 @@ Stationary stationary(const Oval &o, const Wavefront &w, double ux, double uy, d
 // a corner's light.
 constexpr Complex far_off{0.5, 0.5};
 Complex fresnel_nearby(double x) {
-    constexpr double whole = 2, none = 5;
-    const double a = std::abs(x);
-    Complex value = far_off;
-    if (a < none) {
-        const double s = std::min((none - a) / (none - whole), 1.0);
-        value += s * s * (3 - 2 * s) * (fresnel(a) - far_off);
-    }
+    const double a = std::abs(x), share = 1 - corner_share(a);
+    const Complex value = share > 0 ? far_off + share * (fresnel(a) - far_off) : far_off;
     return x < 0 ? -value : value;
 }
 
@@ -147,12 +142,29 @@ RimTable::Vector RimPoint::position(double ux, double uy) const {
             oval.y + (oval.shear * a + oval.half_height * b) * norm};
 }
 
-RimPoints::RimPoints(const FarSource &source, const PupilEdges &edges)
-    : nearest(source.nearest), wavelength(source.mean_wavelength()) {
+double RimPoint::most(double ux, double uy, double r, double reach) const {
+    const auto at = RimTable::place(ux, uy, nearest / r);
+    const auto width = static_cast<int>(reach / r * RimTable::directions / 4) + 1;
+    double most = 0;
+    for (int i = -width; i <= width + 1; ++i)
+        for (const int j : {at.column, at.column + 1}) {
+            const int row = (at.row + i + RimTable::directions) % RimTable::directions;
+            const size_t entry = RimTable::entry(row, j);
+            most = std::max(most, std::hypot(re[entry], im[entry]));
+        }
+    return most;
+}
+
+std::vector<RimPoint> rim_points(const FarSource &source, const PupilEdges &edges) {
+    std::vector<RimPoint> points;
+    const double wavelength = source.mean_wavelength();
     const Wavefront w = source.wavefront(wavelength);
     for (const Rim &rim : rims(edges))
         for (const double side : {1.0, -1.0}) {
-            RimPoint point{rim.oval, side, std::vector<double>(RimTable::size),
+            RimPoint point{rim.oval,
+                           side,
+                           source.nearest,
+                           std::vector<double>(RimTable::size),
                            std::vector<double>(RimTable::size),
                            std::vector<double>(RimTable::directions + 1)};
             for (int i = 0; i < RimTable::directions; ++i) {
@@ -164,11 +176,10 @@ RimPoints::RimPoints(const FarSource &source, const PupilEdges &edges)
                 const Stationary at = stationary(rim.oval, w, ux, uy, side);
                 point.waves[static_cast<size_t>(i)] = at.waves;
                 for (int j = 1; j <= RimTable::distances; ++j) {
-                    const double k = RimTable::distance(j, nearest) * source.pixel() / wavelength;
-                    const Complex value = amplitude(rim, at, side, k);
+                    const double r = RimTable::distance(j, source.nearest);
+                    const Complex value = amplitude(rim, at, side, r * source.pixel() / wavelength);
                     point.re[RimTable::entry(i, j)] = value.real();
                     point.im[RimTable::entry(i, j)] = value.imag();
-                    point.most = std::max(point.most, std::abs(value));
                 }
             }
             RimTable::close(point.re);
@@ -176,6 +187,7 @@ RimPoints::RimPoints(const FarSource &source, const PupilEdges &edges)
             point.waves.back() = point.waves.front();
             points.push_back(std::move(point));
         }
+    return points;
 }
 
 } // namespace wfpsf

@@ -55,13 +55,23 @@ struct RimTable {
     }
 };
 
-// One of an oval's two points, in front (towards the direction) or behind.
+// How much of what Fresnel's integral has from where an edge ends, x from the point, is a corner's
+// light by itself.
+[[gnu::always_inline]] inline double corner_share(double x) {
+    constexpr double none = 2, whole = 5;
+    const double s = std::clamp((x - none) / (whole - none), 0.0, 1.0);
+    return s * s * (3 - 2 * s);
+}
+
+// One of an oval's two points, in front (towards the direction) or behind. Its amplitude is
+// exp(2 pi i (k place + waves)) / k^(3/2) times the table's, the light per unit of solid angle that
+// squared over (2 pi)^2; k = r / wavelength, in cycles per metre.
 struct RimPoint {
     Oval oval;
     double side;                // +1: in front, -1: behind
-    std::vector<double> re, im; // amplitude by direction and distance: see RimPoints
+    double nearest;             // native pixels, of the tables
+    std::vector<double> re, im; // by direction and distance
     std::vector<double> waves;  // wavefront there by direction, at the mean wavelength
-    double most = 0;            // of the amplitudes
 
     RimTable::Vector position(double ux, double uy) const; // m
     // Along (x, y), times its length.
@@ -69,16 +79,21 @@ struct RimPoint {
         const double a = oval.half_width * x + oval.shear * y, b = oval.half_height * y;
         return oval.x * x + oval.y * y + side * std::sqrt(a * a + b * b);
     }
+    // In the direction of (x, y), which are native pixels, r long.
+    struct Amplitude {
+        double re, im, waves;
+    };
+    [[gnu::always_inline]] Amplitude amplitude(double x, double y, double r) const {
+        const auto at = RimTable::place(x, y, nearest / r);
+        const double *wave = waves.data() + at.row;
+        return {at.of(re.data()), at.of(im.data()), wave[0] + at.s * (wave[1] - wave[0])};
+    }
+    // Of all amplitudes at the distance r, up to `reach` aside from the direction.
+    double most(double ux, double uy, double r, double reach) const;
 };
 
-// The amplitude of a point is exp(2 pi i (k place + waves)) / k^(3/2) times its table's; the light
-// per unit of solid angle is its square over (2 pi)^2, k = r / wavelength in cycles per metre.
-struct RimPoints {
-    double nearest, wavelength;
-    std::vector<RimPoint> points; // in pairs, the one in front first
-
-    RimPoints(const FarSource &source, const PupilEdges &edges);
-};
+// In pairs, the one in front first.
+std::vector<RimPoint> rim_points(const FarSource &source, const PupilEdges &edges);
 
 // Radians that an edge may turn by where a curved one goes on from it.
 inline constexpr double smooth_kink = 0.01;

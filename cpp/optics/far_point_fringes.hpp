@@ -1,23 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fringes between a spike and the halo: light of a straight edge and of the points of rims that
-// send light its way.
+// Fringes between a spike and other light: of a straight edge with points that send light its way,
+// which are rims' or corners.
 #pragma once
 
+#include "optics/far_corners.hpp"
 #include "optics/far_rims.hpp"
 #include "optics/far_visibility.hpp"
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <vector>
 
 namespace wfpsf {
 
-class RimFringes {
+// A RimPoint or Corner.
+template <class Point> class PointFringes {
   public:
-    // Those that are in the tables already are left out.
-    RimFringes(const FarSource &source, const PupilEdges &edges, const EdgeColours &colours,
-               std::shared_ptr<const Visibility> visibility, const std::vector<Fringes> &tables,
-               RimPoints rims);
+    // `known`: pairs of an edge and a point that are in other tables.
+    using Known = std::function<bool(size_t edge, const Point &point)>;
+    PointFringes(const FarSource &source, const EdgeColours &colours,
+                 std::shared_ptr<const Visibility> visibility, std::vector<Point> points,
+                 const Known &known);
 
     // Adds fractions of the light, where they may be above the floor.
     void add(const PixelRow &row, double floor) const;
@@ -37,18 +41,12 @@ class RimFringes {
         std::vector<std::vector<ColourWaves>> waves = {};
         std::array<std::vector<Pair>, 2> pairs = {}; // on either side of the star
     };
-    // `joined`: curved edges' ends that belong to the edge's spike.
-    struct End {
-        Oval oval;
-        double x, y;
-    };
-    Edge edge(const EdgeColours &colours, const EdgeColours::Edge &of,
-              const std::vector<End> &joined) const;
+    Edge edge(const EdgeColours &colours, size_t i, const Known &known) const;
     double most(const Edge &edge, const Pair &pair, size_t side, double r) const;
 
-    RimPoints rims_;
+    std::vector<Point> points_;
     std::shared_ptr<const Visibility> visibility_;
-    double pixel_, scale_, reach_, per_across_;
+    double nearest_, wavelength_, pixel_, scale_, reach_, per_across_;
     std::vector<Edge> edges_;
 };
 
