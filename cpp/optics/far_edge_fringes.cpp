@@ -16,45 +16,32 @@ EdgeFringes::EdgeFringes(const FarSource &source, const EdgeColours &colours,
     : visibility_(std::move(visibility)), pixel_(source.pixel()),
       scale_(1 / (2 * std::numbers::pi * std::numbers::pi * source.area())),
       reach_(colours.reach()), per_across_(colours.per_across()) {
-    const auto &wavenumber = visibility_->wavenumbers();
     const double mean = 1 / source.mean_wavelength();
     for (const Fringes &table : tables) {
         if (!(table.end() < fringes_end))
             continue;
-        Group group{table.axes(), table.end(), 0, 0, {}};
-        const std::vector<size_t> &members = table.members();
-        for (const size_t a : members) {
-            const EdgeColours::Edge &first = colours.edges()[a];
-            const double turned = std::abs(group.axes.across(first.axes.nx, first.axes.ny));
-            group.reach = std::max(group.reach, reach_ + turned * fringes_end);
-            for (const size_t b : members) {
-                if (b <= a)
-                    continue;
-                const EdgeColours::Edge &second = colours.edges()[b];
-                // The response to two points is taken for the product of each one's to the other
-                // edge's middle over that to both middles.
-                Pair pair{{first, second},
-                          {colours.waves(first, second.x, second.y),
-                           colours.waves(second, first.x, first.y)}};
+        const auto [nx, ny] = table.axes();
+        Group group{table.axes(), table.end(), reach_, std::sqrt(3 * colours.variance(-ny, nx))};
+        for (const size_t i : table.members()) {
+            Member member{colours.edges()[i], colours.waves(colours.edges()[i])};
+            // The visibility holds a root of the wavelength that two edges do not have.
+            for (ColourWaves &wave : member.waves)
                 for (size_t m = 0; m < far_colours; ++m) {
-                    constexpr double least = 0.2; // where that fails
-                    const double both =
-                        colours.response(first.x - second.x, first.y - second.y, wavenumber[m]);
-                    const double scale =
-                        std::abs(both) < least ? 0 : std::sqrt(wavenumber[m] / mean) / both;
-                    for (ColourWaves &wave : pair.waves[0]) {
-                        wave.re[m] *= scale;
-                        wave.im[m] *= scale;
-                    }
+                    const double scale = std::pow(visibility_->wavenumbers()[m] / mean, 0.25);
+                    wave.re[m] *= scale;
+                    wave.im[m] *= scale;
                 }
-                const double path =
-                    std::abs(group.axes.along(first.x - second.x, first.y - second.y)) *
-                        group.begin -
-                    (first.length + second.length) / 2 * reach_;
-                group.most += scale_ * most(pair.waves[0]) * most(pair.waves[1]) *
+            const SpikeAxes &axes = member.edge.axes;
+            const double turned = std::abs(group.axes.across(axes.nx, axes.ny));
+            group.reach = std::max(group.reach, reach_ + turned * fringes_end);
+            for (const Member &other : group.members) {
+                const auto &[a, b] = std::pair(member.edge, other.edge);
+                const double path = std::abs(group.axes.along(a.x - b.x, a.y - b.y)) * group.begin -
+                                    (a.length + b.length) / 2 * reach_;
+                group.most += scale_ * most(member.waves) * most(other.waves) *
                               visibility_->most(path * pixel_);
-                group.pairs.push_back(std::move(pair));
             }
+            group.members.push_back(std::move(member));
         }
         groups_.push_back(std::move(group));
     }
@@ -63,16 +50,16 @@ EdgeFringes::EdgeFringes(const FarSource &source, const EdgeColours &colours,
 namespace {
 
 struct PairTable {
-    const std::array<EdgeColours::Edge, 2> &edges;
-    const ColourWaves *first, *second; // one step before the position -reach
+    const EdgeColours::Edge &a, &b;
+    const ColourWaves *waves_a, *waves_b; // one step before the position -reach
     const ColourWaves *visibility;
     double per_path, longest, middle;
     double pixel, scale, reach, per_across;
 };
 
-WFPSF_VECTORISED void add_pair(const PairTable &pair, double x0, double y, size_t n,
+WFPSF_VECTORISED void add_pair(const PairTable &pair, double weight, double x0, double y, size_t n,
                                double *light) {
-    const auto &[a, b] = pair.edges;
+    const EdgeColours::Edge &a = pair.a, &b = pair.b;
     const double last = 2 * pair.reach * pair.per_across;
     for (size_t i = 0; i < n; ++i) {
         const double x = x0 + static_cast<double>(i), r2 = x * x + y * y;
@@ -89,8 +76,8 @@ WFPSF_VECTORISED void add_pair(const PairTable &pair, double x0, double y, size_
         for (size_t m = 0; m < far_colours; ++m) {
             double v_re, v_im, a_re, a_im, b_re, b_im;
             of_path.read(pair.visibility + cell, m, v_re, v_im);
-            of_a.read(pair.first + left_a, m, a_re, a_im);
-            of_b.read(pair.second + left_b, m, b_re, b_im);
+            of_a.read(pair.waves_a + left_a, m, a_re, a_im);
+            of_b.read(pair.waves_b + left_b, m, b_re, b_im);
             v_im *= sign;
             const double re = a_re * b_re + a_im * b_im, im = a_im * b_re - a_re * b_im;
             sum_re += v_re * re - v_im * im;
@@ -98,7 +85,7 @@ WFPSF_VECTORISED void add_pair(const PairTable &pair, double x0, double y, size_
         }
         double cosine, sine;
         phasor(path * pair.middle, cosine, sine);
-        light[i] += pair.scale * a.axes.along(x, y) * b.axes.along(x, y) / (r2 * r2) *
+        light[i] += weight * pair.scale * a.axes.along(x, y) * b.axes.along(x, y) / (r2 * r2) *
                     within(across_a / pair.reach) * within(across_b / pair.reach) *
                     (sum_re * cosine - sum_im * sine);
     }
@@ -119,11 +106,20 @@ void EdgeFringes::add(const PixelRow &row, double floor) const {
         const double end = std::min(fringes_end, std::sqrt(group.most / floor));
         for (const Run &run : runs_along(group.axes, row, group.reach, group.begin, end)) {
             const PixelRow part = row.part(run.first, run.last);
-            for (const Pair &pair : group.pairs)
-                add_pair({pair.edges, pair.waves[0].data() + 1, pair.waves[1].data() + 1,
-                          visibility_->table(), visibility_->per_path(), visibility_->longest(),
-                          visibility_->middle(), pixel_, scale_, reach_, per_across_},
-                         part.x, part.y, part.light.size(), part.light.data());
+            // The pixel across the spike is three samples, the outer ones of a sixth.
+            for (const int sample : {-1, 0, 1}) {
+                const double aside = sample * group.aside;
+                const double x = part.x - aside * group.axes.ny, y = part.y + aside * group.axes.nx;
+                const double weight = sample == 0 ? 2.0 / 3 : 1.0 / 6;
+                for (const Member &a : group.members)
+                    for (const Member *b = &a + 1; b != group.members.data() + group.members.size();
+                         ++b)
+                        add_pair({a.edge, b->edge, a.waves.data() + 1, b->waves.data() + 1,
+                                  visibility_->table(), visibility_->per_path(),
+                                  visibility_->longest(), visibility_->middle(), pixel_, scale_,
+                                  reach_, per_across_},
+                                 weight, x, y, part.light.size(), part.light.data());
+            }
         }
     }
 }

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fringes between edges of about one direction beyond the tables of Fringes, where they have faded
-// to a few per cent.
+// Fringes between edges of about one direction beyond the tables of Fringes.
 #pragma once
 
 #include "optics/far_visibility.hpp"
 
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -23,15 +21,16 @@ class EdgeFringes {
     double brightest(double r, const SpikeAxes &spike) const;
 
   private:
-    struct Pair {
-        std::array<EdgeColours::Edge, 2> edges;
-        std::array<std::vector<ColourWaves>, 2> waves;
+    struct Member {
+        EdgeColours::Edge edge;
+        std::vector<ColourWaves> waves;
     };
     struct Group {
         SpikeAxes axes;
         double begin, reach; // native pixels, along and across
-        double most;         // from there on, times the distance's square
-        std::vector<Pair> pairs;
+        double aside;        // of the samples that stand for a pixel across the spike
+        double most = 0;     // from there on, times the distance's square
+        std::vector<Member> members = {};
     };
 
     std::shared_ptr<const Visibility> visibility_;

@@ -13,7 +13,7 @@ namespace wfpsf {
 namespace {
 
 constexpr double nearest_pixel = 24; // of the tables
-constexpr size_t colours = 14;       // enough for the fringes that the tables hold
+constexpr size_t colours = 11;       // enough for the fringes that the tables hold
 
 FarSource far_source(const Optics &optics, const Light &light, const PsfSettings &settings) {
     const double diameter = optics.aperture->diameter();

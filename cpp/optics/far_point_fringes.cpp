@@ -64,7 +64,7 @@ typename PointFringes<Point>::Edge PointFringes<Point>::edge(const EdgeColours &
         }
     }
     // Of the edge's own light.
-    constexpr double faint = 3e-4;
+    constexpr double faint = 2e-3;
     constexpr size_t there = 4; // rings
     const double own = scale_ / 2 * std::pow(out.edge.length / ring(nearest_, there), 2);
     for (std::vector<Pair> &pairs : out.pairs)

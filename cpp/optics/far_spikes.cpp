@@ -579,7 +579,7 @@ class SpikeTables {
             right = std::max(right, middle + e->length / 2);
         }
         const auto [blue, red] = std::ranges::minmax(source_.spectrum.wavelength);
-        constexpr double per_fringe = 10, most_fringes = 5, farthest = 1200, per_wave = 4.5;
+        constexpr double per_fringe = 10, most_fringes = 3.5, farthest = 1200, per_wave = 4.5;
         const double per_pixel = std::max(high - low, 1e-3) * source_.pixel();
         const double along_step = std::min(20.0, blue / per_pixel / per_fringe);
         const double end = std::min(farthest, most_fringes / (per_pixel * (1 / blue - 1 / red)));

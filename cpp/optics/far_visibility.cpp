@@ -107,6 +107,14 @@ EdgeColours::EdgeColours(const FarSource &source, const PupilEdges &edges,
     reach_ = std::floor(std::min(farthest, most_turns / differs) * per_across_) / per_across_;
 }
 
+double EdgeColours::variance(double ux, double uy) const {
+    const Covariance &blur = source_.settings.blur;
+    const double mirror = source_.settings.mirrored ? -1 : 1;
+    const double pixel = source_.settings.pixel_response ? 1.0 / 12 : 0;
+    return pixel + blur.xx * ux * ux + 2 * blur.xy * mirror * ux * uy + blur.yy * uy * uy;
+}
+
+// To fringes between points of the pupil so far apart.
 double EdgeColours::response(double x, double y, double wavenumber) const {
     const double fx = x * source_.pixel() * wavenumber, fy = y * source_.pixel() * wavenumber;
     const Covariance &blur = source_.settings.blur;
@@ -116,7 +124,9 @@ double EdgeColours::response(double x, double y, double wavenumber) const {
     return source_.settings.pixel_response ? blurred * sinc(fx) * sinc(fy) : blurred;
 }
 
-std::vector<ColourWaves> EdgeColours::waves(const Edge &edge, double x, double y) const {
+template <class Response>
+std::vector<ColourWaves> EdgeColours::integral(const Edge &edge,
+                                               const Response &response_to) const {
     const auto &[nx, ny] = edge.axes;
     const auto half = std::lround(reach_ * per_across_) + 2;
     const double bluest = wavenumber_.back();
@@ -130,12 +140,22 @@ std::vector<ColourWaves> EdgeColours::waves(const Edge &edge, double x, double y
         for (size_t m = 0; m < far_colours; ++m) {
             const double turn = source_.pixel() * wavenumber_[m] * s / per_across_;
             const double weight =
-                rule.w[i] * edge.length / 2 * response(at_x - x, at_y - y, wavenumber_[m]);
+                rule.w[i] * edge.length / 2 * response_to(at_x, at_y, wavenumber_[m]);
             add_turning(m, weight, path * wavenumber_[m] - static_cast<double>(half) * turn, turn,
                         out);
         }
     }
     return out;
+}
+
+std::vector<ColourWaves> EdgeColours::waves(const Edge &edge) const {
+    return integral(edge, [](double, double, double) { return 1.0; });
+}
+
+std::vector<ColourWaves> EdgeColours::waves(const Edge &edge, double x, double y) const {
+    return integral(edge, [&](double at_x, double at_y, double wavenumber) {
+        return response(at_x - x, at_y - y, wavenumber);
+    });
 }
 
 double most(const std::vector<ColourWaves> &waves) {

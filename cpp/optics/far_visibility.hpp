@@ -75,12 +75,18 @@ class EdgeColours {
     double reach() const { return reach_; } // across, native pixels
     double per_across() const { return per_across_; }
 
-    // The pixel's and the blur's response to fringes between points of the pupil so far apart.
-    double response(double x, double y, double wavenumber) const;
-    // Times the response to fringes with light from (x, y); from two steps before -reach on.
+    // From two steps before -reach on; times the pixel's and the blur's response to fringes with
+    // light from (x, y).
+    std::vector<ColourWaves> waves(const Edge &edge) const;
     std::vector<ColourWaves> waves(const Edge &edge, double x, double y) const;
+    // Of the pixel and the blur in a direction of length one, native pixels squared.
+    double variance(double ux, double uy) const;
 
   private:
+    double response(double x, double y, double wavenumber) const;
+    template <class Response>
+    std::vector<ColourWaves> integral(const Edge &edge, const Response &response_to) const;
+
     const FarSource &source_;
     std::array<double, far_colours> wavenumber_;
     std::vector<Edge> edges_;
