@@ -38,6 +38,8 @@ EdgeFringes::EdgeFringes(const FarSource &source, const EdgeColours &colours,
                 const auto &[a, b] = std::pair(member.edge, other.edge);
                 const double path = std::abs(group.axes.along(a.x - b.x, a.y - b.y)) * group.begin -
                                     (a.length + b.length) / 2 * reach_;
+                group.pairs.push_back(
+                    {static_cast<size_t>(&other - group.members.data()), group.members.size()});
                 group.most += scale_ * most(member.waves) * most(other.waves) *
                               visibility_->most(path * pixel_);
             }
@@ -104,23 +106,26 @@ double EdgeFringes::brightest(double r, const SpikeAxes &spike) const {
 void EdgeFringes::add(const PixelRow &row, double floor) const {
     for (const Group &group : groups_) {
         const double end = std::min(fringes_end, std::sqrt(group.most / floor));
-        for (const Run &run : runs_along(group.axes, row, group.reach, group.begin, end)) {
-            const PixelRow part = row.part(run.first, run.last);
-            // The pixel across the spike is three samples, the outer ones of a sixth.
-            for (const int sample : {-1, 0, 1}) {
-                const double aside = sample * group.aside;
-                const double x = part.x - aside * group.axes.ny, y = part.y + aside * group.axes.nx;
-                const double weight = sample == 0 ? 2.0 / 3 : 1.0 / 6;
-                for (const Member &a : group.members)
-                    for (const Member *b = &a + 1; b != group.members.data() + group.members.size();
-                         ++b)
-                        add_pair({a.edge, b->edge, a.waves.data() + 1, b->waves.data() + 1,
-                                  visibility_->table(), visibility_->per_path(),
-                                  visibility_->longest(), visibility_->middle(), pixel_, scale_,
-                                  reach_, per_across_},
-                                 weight, x, y, part.light.size(), part.light.data());
+        for (const Run &run : runs_along(group.axes, row, group.reach, group.begin, end))
+            for (const auto &[i, j] : group.pairs) {
+                const Member &a = group.members[i], &b = group.members[j];
+                const auto near = [&](Run of, const SpikeAxes &axes) {
+                    return between(of, axes.across(row.x, row.y), -axes.ny, -reach_, reach_);
+                };
+                const Run both = near(near(run, a.edge.axes), b.edge.axes);
+                if (both.first > both.last)
+                    continue;
+                const PixelRow part = row.part(both.first, both.last);
+                // The pixel across the spike is three samples, the outer ones of a sixth.
+                for (const int sample : {-1, 0, 1}) {
+                    const double aside = sample * group.aside;
+                    add_pair({a.edge, b.edge, a.waves.data() + 1, b.waves.data() + 1,
+                              visibility_->table(), visibility_->per_path(), visibility_->longest(),
+                              visibility_->middle(), pixel_, scale_, reach_, per_across_},
+                             sample == 0 ? 2.0 / 3 : 1.0 / 6, part.x - aside * group.axes.ny,
+                             part.y + aside * group.axes.nx, part.light.size(), part.light.data());
+                }
             }
-        }
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include "optics/far_visibility.hpp"
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -31,6 +32,7 @@ class EdgeFringes {
         double aside;        // of the samples that stand for a pixel across the spike
         double most = 0;     // from there on, times the distance's square
         std::vector<Member> members = {};
+        std::vector<std::array<size_t, 2>> pairs = {};
     };
 
     std::shared_ptr<const Visibility> visibility_;

@@ -46,6 +46,7 @@ PointFringes<Point>::PointFringes(const FarSource &source, const EdgeColours &co
 template <class Point>
 typename PointFringes<Point>::Edge PointFringes<Point>::edge(const EdgeColours &colours, size_t i,
                                                              const Known &known) const {
+    constexpr double faint = 4e-3; // as a share of the edge's own light
     Edge out{colours.edges()[i]};
     const auto &[nx, ny] = out.edge.axes;
     for (size_t p = 0; p < points_.size(); ++p) {
@@ -55,20 +56,18 @@ typename PointFringes<Point>::Edge PointFringes<Point>::edge(const EdgeColours &
         out.waves.push_back(colours.waves(out.edge, x, y));
         for (const size_t side : {0, 1}) {
             Pair pair{seen_from(p, side, points_[p]), out.waves.size() - 1, {}};
-            for (size_t j = 0; ring(nearest_, j) < fringes_end; ++j)
-                pair.most.push_back(most(out, pair, side, ring(nearest_, j)));
+            for (size_t j = 0; ring(nearest_, j) < fringes_end; ++j) {
+                const double r = ring(nearest_, j), here = most(out, pair, side, r);
+                const double own = scale_ / 2 * std::pow(out.edge.length / r, 2);
+                pair.most.push_back(here < faint * own ? 0 : here);
+            }
             pair.most.push_back(0);
             for (size_t j = pair.most.size() - 1; j-- > 0;)
                 pair.most[j] = std::max(pair.most[j], pair.most[j + 1]);
-            out.pairs[side].push_back(std::move(pair));
+            if (pair.most[0] > 0)
+                out.pairs[side].push_back(std::move(pair));
         }
     }
-    // Of the edge's own light.
-    constexpr double faint = 2e-3;
-    constexpr size_t there = 4; // rings
-    const double own = scale_ / 2 * std::pow(out.edge.length / ring(nearest_, there), 2);
-    for (std::vector<Pair> &pairs : out.pairs)
-        std::erase_if(pairs, [&](const Pair &pair) { return pair.most[there] < faint * own; });
     return out;
 }
 
@@ -130,16 +129,6 @@ WFPSF_VECTORISED void add_pair(const PairTable<Point> &pair, double x0, double y
     }
 }
 
-// The part of a run that is no farther along than `end`, on its side of the star.
-Run nearer(const SpikeAxes &axes, const PixelRow &row, Run run, double end) {
-    const double x = (end - axes.ny * row.y) / axes.nx - row.x; // where along = end
-    if (axes.nx * end > 0)
-        run.last = std::min(run.last, static_cast<int64_t>(std::floor(std::min(x, 1e9))));
-    else if (axes.nx * end < 0)
-        run.first = std::max(run.first, static_cast<int64_t>(std::ceil(std::max(x, -1e9))));
-    return run;
-}
-
 } // namespace
 
 template <class Point>
@@ -173,7 +162,8 @@ template <class Point> void PointFringes<Point>::add(const PixelRow &row, double
             const auto middle = static_cast<double>(run.first + run.last) / 2;
             const bool behind = axes.along(row.x + middle, row.y) < 0;
             for (const Pair &pair : edge.pairs[behind ? 1 : 0]) {
-                const Run lit = nearer(axes, row, run, behind ? -end(pair) : end(pair));
+                const Run lit =
+                    between(run, axes.along(row.x, row.y), axes.nx, -end(pair), end(pair));
                 if (lit.first > lit.last)
                     continue;
                 const PixelRow part = row.part(lit.first, lit.last);

@@ -67,6 +67,16 @@ void add_roots(std::vector<double> &roots, double a, double b, double c) {
 
 } // namespace
 
+Run between(Run run, double start, double step, double low, double high) {
+    const double a = (low - start) / step, b = (high - start) / step;
+    if (std::isfinite(a) && std::isfinite(b)) {
+        const auto first = static_cast<double>(run.first), last = static_cast<double>(run.last);
+        run.first = static_cast<int64_t>(std::ceil(std::clamp(std::min(a, b), first, last + 1)));
+        run.last = static_cast<int64_t>(std::floor(std::clamp(std::max(a, b), first - 1, last)));
+    }
+    return run;
+}
+
 std::vector<Run> runs_along(const SpikeAxes &axes, const PixelRow &row, double reach,
                             double nearest, double farthest) {
     const auto &[nx, ny] = axes;

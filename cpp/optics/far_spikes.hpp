@@ -60,6 +60,9 @@ struct Run {
     int64_t first, last;
 };
 
+// The part of a run where start + step * pixel is between two bounds.
+Run between(Run run, double start, double step, double low, double high);
+
 // Those up to `reach` across from a spike's line and between two distances along it, on either side
 // of the star; no run is on both.
 std::vector<Run> runs_along(const SpikeAxes &axes, const PixelRow &row, double reach,
