@@ -22,8 +22,10 @@ EdgeFringes::EdgeFringes(const FarSource &source, const EdgeColours &colours,
             continue;
         const auto [nx, ny] = table.axes();
         Group group{table.axes(), table.end(), reach_, std::sqrt(3 * colours.variance(-ny, nx))};
-        for (const size_t i : table.members()) {
-            Member member{colours.edges()[i], colours.waves(colours.edges()[i])};
+        for (const EdgeColours::Edge &edge : colours.edges()) {
+            if (std::ranges::count(table.members(), edge.straight) == 0)
+                continue;
+            Member member{edge, colours.waves(edge)};
             // The visibility holds a root of the wavelength that two edges do not have.
             for (ColourWaves &wave : member.waves)
                 for (size_t m = 0; m < far_colours; ++m) {
@@ -35,13 +37,23 @@ EdgeFringes::EdgeFringes(const FarSource &source, const EdgeColours &colours,
             const double turned = std::abs(group.axes.across(axes.nx, axes.ny));
             group.reach = std::max(group.reach, reach_ + turned * fringes_end);
             for (const Member &other : group.members) {
-                const auto &[a, b] = std::pair(member.edge, other.edge);
-                const double path = std::abs(group.axes.along(a.x - b.x, a.y - b.y)) * group.begin -
-                                    (a.length + b.length) / 2 * reach_;
-                group.pairs.push_back(
-                    {static_cast<size_t>(&other - group.members.data()), group.members.size()});
-                group.most += scale_ * most(member.waves) * most(other.waves) *
-                              visibility_->most(path * pixel_);
+                if (other.edge.straight == edge.straight)
+                    continue;
+                const EdgeColours::Edge &b = other.edge;
+                const double apart = std::abs(group.axes.along(edge.x - b.x, edge.y - b.y));
+                const double aside = (edge.length + b.length) / 2 * reach_;
+                const auto most_at = [&](double r) {
+                    return scale_ * most(member.waves) * most(other.waves) *
+                           visibility_->most((apart * r - aside) * pixel_);
+                };
+                constexpr double faint = 4e-3; // as a share of the edges' own light
+                const double own = scale_ * edge.length * b.length;
+                double end = group.begin;
+                while (end < fringes_end && most_at(end) > faint * own)
+                    end *= 1.1;
+                group.pairs.push_back({static_cast<size_t>(&other - group.members.data()),
+                                       group.members.size(), std::min(end, fringes_end)});
+                group.most += most_at(group.begin);
             }
             group.members.push_back(std::move(member));
         }
@@ -107,12 +119,14 @@ void EdgeFringes::add(const PixelRow &row, double floor) const {
     for (const Group &group : groups_) {
         const double end = std::min(fringes_end, std::sqrt(group.most / floor));
         for (const Run &run : runs_along(group.axes, row, group.reach, group.begin, end))
-            for (const auto &[i, j] : group.pairs) {
-                const Member &a = group.members[i], &b = group.members[j];
+            for (const Pair &pair : group.pairs) {
+                const Member &a = group.members[pair.first], &b = group.members[pair.second];
                 const auto near = [&](Run of, const SpikeAxes &axes) {
                     return between(of, axes.across(row.x, row.y), -axes.ny, -reach_, reach_);
                 };
-                const Run both = near(near(run, a.edge.axes), b.edge.axes);
+                const Run seen = between(run, group.axes.along(row.x, row.y), group.axes.nx,
+                                         -pair.end, pair.end);
+                const Run both = near(near(seen, a.edge.axes), b.edge.axes);
                 if (both.first > both.last)
                     continue;
                 const PixelRow part = row.part(both.first, both.last);

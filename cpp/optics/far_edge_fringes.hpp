@@ -4,7 +4,6 @@
 
 #include "optics/far_visibility.hpp"
 
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -26,13 +25,17 @@ class EdgeFringes {
         EdgeColours::Edge edge;
         std::vector<ColourWaves> waves;
     };
+    struct Pair {
+        size_t first, second; // members
+        double end;           // native pixels; from there on its fringes are faint
+    };
     struct Group {
         SpikeAxes axes;
         double begin, reach; // native pixels, along and across
         double aside;        // of the samples that stand for a pixel across the spike
         double most = 0;     // from there on, times the distance's square
         std::vector<Member> members = {};
-        std::vector<std::array<size_t, 2>> pairs = {};
+        std::vector<Pair> pairs = {};
     };
 
     std::shared_ptr<const Visibility> visibility_;

@@ -54,10 +54,10 @@ struct FarLight::Parts {
         : rims(rim_points(source, edges)),
           visibility(std::make_shared<Visibility>(source, 1.1 * source.optics.aperture->diameter() *
                                                               fringes_end * source.pixel())),
-          colours(source, edges, *visibility) {}
+          narrow(source, edges, *visibility, 9), wide(source, edges, *visibility, 18) {}
     std::vector<RimPoint> rims;
     std::shared_ptr<const Visibility> visibility;
-    EdgeColours colours;
+    EdgeColours narrow, wide;
 };
 
 namespace {
@@ -103,10 +103,10 @@ FarLight::FarLight(const FarSource &source, const PupilEdges &edges, Parts parts
     : nearest_(source.nearest), mirror_(source.settings.mirrored ? -1 : 1),
       fringes_per_pixel_(fringes_per_pixel(source)), spikes_(make_spikes(source, edges)),
       halo_(source, edges, parts.rims),
-      edge_fringes_(source, parts.colours, parts.visibility, spikes_.fringes),
-      rim_fringes_(source, parts.colours, parts.visibility, std::move(parts.rims),
+      edge_fringes_(source, parts.wide, parts.visibility, spikes_.fringes),
+      rim_fringes_(source, parts.narrow, parts.visibility, std::move(parts.rims),
                    known_rims(edges, spikes_.fringes)),
-      corner_fringes_(source, parts.colours, parts.visibility, corners(source, edges),
+      corner_fringes_(source, parts.narrow, parts.visibility, corners(source, edges),
                       known_corners(spikes_.fringes)) {}
 
 void FarLight::add(const PixelRow &row, double floor) const {

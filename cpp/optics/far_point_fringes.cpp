@@ -50,7 +50,7 @@ typename PointFringes<Point>::Edge PointFringes<Point>::edge(const EdgeColours &
     Edge out{colours.edges()[i]};
     const auto &[nx, ny] = out.edge.axes;
     for (size_t p = 0; p < points_.size(); ++p) {
-        if (known(i, points_[p]))
+        if (known(out.edge.straight, points_[p]))
             continue;
         const auto [x, y] = points_[p].position(nx, ny);
         out.waves.push_back(colours.waves(out.edge, x, y));
@@ -73,7 +73,7 @@ typename PointFringes<Point>::Edge PointFringes<Point>::edge(const EdgeColours &
 
 template <class Point>
 double PointFringes<Point>::most(const Edge &edge, const Pair &pair, size_t side, double r) const {
-    const auto &[axes, x, y, length] = edge.edge;
+    const auto &[axes, x, y, length, straight] = edge.edge;
     const double way = side == 0 ? 1 : -1, ux = way * axes.nx, uy = way * axes.ny;
     const Point &point = points_[pair.point];
     const double path = std::abs(way * axes.along(x, y) - point.place(ux, uy)) * r -

@@ -88,23 +88,25 @@ double Visibility::most(double path) const {
 }
 
 EdgeColours::EdgeColours(const FarSource &source, const PupilEdges &edges,
-                         const Visibility &visibility)
-    : source_(source), wavenumber_(visibility.wavenumbers()) {
-    double longest = 0;
-    for (const StraightEdge &edge : edges.straight) {
-        const double dx = edge.to_x - edge.from_x, dy = edge.to_y - edge.from_y;
-        const double length = std::hypot(dx, dy);
-        edges_.push_back({{dy / length, -dx / length},
-                          (edge.from_x + edge.to_x) / 2,
-                          (edge.from_y + edge.to_y) / 2,
-                          length});
-        longest = std::max(longest, length);
+                         const Visibility &visibility, double reach)
+    : source_(source), wavenumber_(visibility.wavenumbers()),
+      per_across_(2 * std::max(1.0, source.bandwidth())) {
+    reach_ = std::ceil(reach * per_across_) / per_across_;
+    constexpr double most_turns = 3.2; // that the ends of a piece may differ by
+    const double turns = reach_ * source.pixel() * (wavenumber_.back() - wavenumber_.front());
+    for (size_t i = 0; i < edges.straight.size(); ++i) {
+        const auto &[x, y, to_x, to_y] = edges.straight[i];
+        const double length = std::hypot(to_x - x, to_y - y);
+        const int pieces = std::max(1, static_cast<int>(std::ceil(length * turns / most_turns)));
+        for (int p = 0; p < pieces; ++p) {
+            const double middle = (p + 0.5) / pieces;
+            edges_.push_back({{(to_y - y) / length, (x - to_x) / length},
+                              x + middle * (to_x - x),
+                              y + middle * (to_y - y),
+                              length / pieces,
+                              i});
+        }
     }
-    // As far as the colours are enough for what differs between the band's ends.
-    constexpr double most_turns = 4.0 / 3, farthest = 12;
-    per_across_ = 2 * std::max(1.0, source.bandwidth());
-    const double differs = longest * source.pixel() * (wavenumber_.back() - wavenumber_.front());
-    reach_ = std::floor(std::min(farthest, most_turns / differs) * per_across_) / per_across_;
 }
 
 double EdgeColours::variance(double ux, double uy) const {

@@ -61,15 +61,19 @@ class Visibility {
     std::vector<double> most_;
 };
 
-// The integrals along straight edges, see far_spikes.hpp, by colour and position across.
+// The integrals along straight edges, see far_spikes.hpp, by colour and position across. Edges are
+// cut where the colours would not be enough for what differs between the band's ends.
 class EdgeColours {
   public:
     struct Edge {
         SpikeAxes axes;
         double x, y, length; // middle, m
+        size_t straight;     // that it is part of
     };
 
-    EdgeColours(const FarSource &source, const PupilEdges &edges, const Visibility &visibility);
+    // `reach`: across, native pixels.
+    EdgeColours(const FarSource &source, const PupilEdges &edges, const Visibility &visibility,
+                double reach);
 
     const std::vector<Edge> &edges() const { return edges_; }
     double reach() const { return reach_; } // across, native pixels
@@ -90,7 +94,7 @@ class EdgeColours {
     const FarSource &source_;
     std::array<double, far_colours> wavenumber_;
     std::vector<Edge> edges_;
-    double reach_, per_across_;
+    double per_across_, reach_ = 0;
 };
 
 // The largest of all.
