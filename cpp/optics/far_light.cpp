@@ -31,18 +31,6 @@ FarSource far_source(const Optics &optics, const Light &light, const PsfSettings
             nearest_pixel, light};
 }
 
-// The spectrum as a box of the same variance in 1 / wavelength.
-double fringes_per_pixel(const FarSource &source) {
-    double mean = 0, square = 0;
-    for (size_t q = 0; q < source.spectrum.size(); ++q) {
-        const double wavenumber = 1 / source.spectrum.wavelength[q];
-        mean += source.spectrum.weight[q] * wavenumber;
-        square += source.spectrum.weight[q] * wavenumber * wavenumber;
-    }
-    return source.optics.aperture->diameter() * source.pixel() *
-           std::sqrt(12 * (square - mean * mean));
-}
-
 } // namespace
 
 FarLight::FarLight(const Optics &optics, const Light &light, const PsfSettings &settings)
@@ -101,8 +89,7 @@ FarLight::FarLight(const FarSource &source, const PupilEdges &edges)
 
 FarLight::FarLight(const FarSource &source, const PupilEdges &edges, Parts parts)
     : nearest_(source.nearest), mirror_(source.settings.mirrored ? -1 : 1),
-      fringes_per_pixel_(fringes_per_pixel(source)), spikes_(make_spikes(source, edges)),
-      halo_(source, edges, parts.rims),
+      spikes_(make_spikes(source, edges)), halo_(source, edges, parts.rims),
       edge_fringes_(source, parts.wide, parts.visibility, spikes_.fringes),
       rim_fringes_(source, parts.narrow, parts.visibility, std::move(parts.rims),
                    known_rims(edges, spikes_.fringes)),
@@ -180,14 +167,8 @@ double FarLight::brightest_beyond(double r) const {
 }
 
 FarLight::Error FarLight::relative_error(double r) const {
-    // What is left of fringes between a spike and the halo.
-    const double fringes = fringes_per_pixel_ * r;
-    double brightest = 0;
-    for (const Spike &spike : spikes_.spikes)
-        brightest = std::max(brightest, spike.brightest(r));
-    const double visible = std::min(0.5, 0.04 + 0.7 / fringes);
-    return {visible * 2 * std::sqrt(halo_.brightest(r) / (brightest + halo_.brightest(r))),
-            std::min(0.5, 0.07 + 0.7 / fringes)};
+    constexpr double between_rims = 0.18, on_spikes = 0.35;
+    return {on_spikes * halo_.brightest(r) / brightest_beyond(r), between_rims};
 }
 
 std::vector<FarLight::Direction> FarLight::spikes(double r, double floor) const {
