@@ -62,14 +62,15 @@ PointFringes<RimPoint>::Known known_rims(const PupilEdges &edges,
                                          const std::vector<Fringes> &tables) {
     return [&, joined = junctions(edges)](size_t edge, const RimPoint &point) {
         const auto &[from_x, from_y, to_x, to_y] = edges.straight[edge];
-        const auto [x, y] = point.position(to_y - from_y, from_x - to_x);
+        const auto at = point.position(to_y - from_y, from_x - to_x);
         return std::ranges::any_of(joined, [&](const Junction &junction) {
             const StraightEdge &other = edges.straight[junction.straight];
-            const double at_x = junction.at_to ? other.to_x : other.from_x;
-            const double at_y = junction.at_to ? other.to_y : other.from_y;
+            const double end_x = junction.at_to ? other.to_x : other.from_x;
+            const double end_y = junction.at_to ? other.to_y : other.from_y;
             const Oval &o = point.oval;
             return junction.kink < widest_kink && edges.curved[junction.curved].oval == o &&
-                   (x - o.x) * (at_x - o.x) + (y - o.y) * (at_y - o.y) > 0 && // the same half
+                   (at.x - o.x) * (end_x - o.x) + (at.y - o.y) * (end_y - o.y) >
+                       0 && // the same half
                    together(tables, edge, junction.straight);
         });
     };

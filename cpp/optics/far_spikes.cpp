@@ -248,7 +248,8 @@ double Fringes::brightest(double r) const {
 }
 
 void Fringes::add(const PixelRow &row, double floor) const {
-    const double reach = static_cast<double>(columns_ / 2 - 2) / per_across_;
+    const int64_t half = columns_ / 2;
+    const double reach = static_cast<double>(half - 2) / per_across_;
     const double farthest = std::min(end_, std::sqrt(most_.front() / floor));
     const auto runs = runs_along(axes_, row, reach, nearest_, farthest);
     for (const Run &run : runs) {
