@@ -65,7 +65,7 @@ inline double far_blocks(double pixels) {
 }
 
 // What they are made from.
-constexpr double making_far_light = 0.35;
+constexpr double making_far_light = 0.27;
 
 // What galaxies are drawn with.
 inline double otf(double bandwidth) {

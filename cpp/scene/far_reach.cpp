@@ -56,9 +56,10 @@ FarReach::FarReach(const FarLight &light, double brightest)
     }
     double r = nearest_;
     while (r < farthest) {
-        const double spikes = of_bound_ * light.brightest_beyond(r);
-        rings_.push_back({spikes, std::max(light.relative_error(r).spikes * spikes,
-                                           light.relative_error(r).halo * light.halo_beyond(r))});
+        const double bound = light.brightest_beyond(r);
+        rings_.push_back(
+            {of_bound_ * bound, std::max(light.relative_error(r).spikes * bound,
+                                         light.relative_error(r).halo * light.halo_beyond(r))});
         r *= std::exp2(1 / rings_per_octave);
     }
 }
