@@ -31,11 +31,10 @@ inline double large_stamp(double pixels, double radius, double bandwidth) {
 inline double shared_psf(double radius, double eps, double bandwidth, bool varies) {
     if (!varies)
         return psf(radius, eps, bandwidth);
-    const double exact = eps >= 5e-5 ? 24 : eps >= 1e-8 ? 80 : 290;
-    constexpr double near = 6, far = 7; // exact ones of some radius, of the largest
     const auto within = [=](double r) { return psf(std::min(radius, r), eps, bandwidth); };
-    const double core = std::max(4.0, 9 * std::sqrt(1e-5 / eps));
-    return 0.8 * (far * within(radius) + near * within(2 * core) + exact * within(core));
+    const double core = 16 * std::sqrt(1e-5 / eps);
+    return 10 * psf(radius, eps, bandwidth) + 15 * within(std::max(8.0, core)) +
+           60 * within(std::max(4.0, core / 2));
 }
 
 // Samples of a field that stamps of a radius are drawn from.

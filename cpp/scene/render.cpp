@@ -109,14 +109,14 @@ template <class T> class Renderer {
     void find_error() {
         std::vector<PixelError> errors;
         for (const PlannedGroup &planned : plan_.groups()) {
-            const Way &way = planned.way;
-            Way made = way;
-            if (way.drawing == Drawing::shared)
-                made.eps = models_[static_cast<size_t>(planned.group.colour)]->error_estimate();
-            errors.push_back({std::max(planned.error.local,
-                                       psf_error(planned.group, plan_.colour(planned.group.colour),
-                                                 plan_.budget(), made)),
-                              planned.error.mean});
+            PixelError &error = errors.emplace_back(planned.error);
+            if (planned.way.drawing != Drawing::shared)
+                continue;
+            const int32_t colour = planned.group.colour;
+            Way made = planned.way;
+            made.eps = models_[static_cast<size_t>(colour)]->error_estimate();
+            error.local = std::max(
+                error.local, psf_error(planned.group, plan_.colour(colour), plan_.budget(), made));
         }
         report_.error = together(errors);
     }

@@ -119,7 +119,8 @@ void Ways::with_and_without_far(const Way &way, double time_s, const Take &take)
         const PixelError error = left_out(way);
         take({way, time_s, {error.local + of_psf, error.mean}});
     }
-    if (!colour_.far || image_.oversampling != 1 || way.radius < colour_.far->nearest() ||
+    // Tables are interpolated, and need some light within the stamp.
+    if (!colour_.far || image_.oversampling != 1 || way.radius < colour_.far->nearest() + 1 ||
         way.radius >= group_.reach)
         return;
     const FarReach &far = *colour_.far;

@@ -77,7 +77,8 @@ WFPSF_EXPORT wfpsf_status wfpsf_varying_psf_at(const wfpsf_varying_psf *varying,
                                                wfpsf_psf **out);
 
 /**
- * Adds stars to an image as wfpsf_psf_add_stars() does, each with the PSF of its own place.
+ * Adds stars to an image as wfpsf_psf_add_stars() does, each with the PSF of its own place, to a
+ * tenth of EPS. Thousands of stars share what is near them: microseconds each.
  *
  * Given:    x0, y0      position on the detector of the centre of the image's first native pixel
  *           others      as for wfpsf_psf_add_stars(); x and y in pixels of the image
