@@ -91,9 +91,9 @@ std::string machine() {
 int main(int argc, char **argv) {
     using namespace wfpsf::bench;
     std::vector<Case> cases = psf_cases();
-    for (auto more :
-         {wide_psf_cases(), far_light_cases(), varying_psf_cases(), transform_cases(), ipc_cases(),
-          moments_cases(), study_cases(), observation_cases(), galaxy_cases(), scene_cases()})
+    for (auto more : {wide_psf_cases(), far_light_cases(), varying_psf_cases(), transform_cases(),
+                      ipc_cases(), moments_cases(), study_cases(), observation_cases(),
+                      galaxy_cases(), scene_cases(), roofline_cases()})
         cases.insert(cases.end(), more.begin(), more.end());
 
     if (argc > 2)
