@@ -3,6 +3,7 @@
 
 What an argument is, and its unit, comes from the C function that a procedure calls.
 """
+import itertools
 import re
 from pathlib import Path
 from typing import NamedTuple
@@ -17,7 +18,7 @@ OUTCOME = ("stat", "errmsg")  # of every procedure, told once
 
 class Procedure(NamedTuple):
     kind: str
-    comment: str
+    comment: list  # lines
     arguments: list
     types: dict  # of each argument, and of the result
     result: str
@@ -25,7 +26,7 @@ class Procedure(NamedTuple):
 
 class Type(NamedTuple):
     name: str
-    comment: str
+    comment: list
     bindings: list  # (name, [procedures])
 
 
@@ -35,7 +36,7 @@ def statements(text):
     for line in re.sub(r"&\n\s*", "", text).splitlines():
         line = line.strip()
         if line.startswith("!"):
-            comment.append(line.lstrip("! "))
+            comment.append(line.removeprefix("!").removeprefix(" "))
         else:
             yield line, comment
             comment = []
@@ -52,14 +53,14 @@ def read():
             about = comment
         elif head:
             inside = procedures[head[2]] = Procedure(
-                head[1], " ".join(comment), re.findall(r"\w+", head[3]), {}, head[4] or "")
+                head[1], comment, re.findall(r"\w+", head[3]), {}, head[4] or "")
         elif re.match(r"end (subroutine|function)", line):
             inside = None
         elif inside and declared:
             for name, shape in re.findall(r"(\w+)(\([^)]*\))?", declared[2]):
                 inside.types[name] = f"{declared[1]} :: {name}{shape}"
         elif opened := re.match(r"type, extends\(handle\) :: (\w+)", line):
-            types.append(Type(opened[1], " ".join(comment), []))
+            types.append(Type(opened[1], comment, []))
         elif types and (bound := re.match(r"(?:procedure|generic) :: (\w+) => (.*)", line)):
             types[-1].bindings.append((bound[1], re.findall(r"\w+", bound[2])))
     return procedures, types, about
@@ -87,10 +88,14 @@ def told(calls, comments):
     return texts
 
 
-def paragraphs(lines, linked):
-    """Comment lines; an empty one parts two paragraphs."""
-    text = "\n".join(lines).strip("\n")
-    return [linked(" ".join(part.split())) for part in text.split("\n\n")]
+def prose(lines, linked):
+    """Comment lines as paragraphs, and as code where they are indented."""
+    for code, group in itertools.groupby(lines, lambda line: line.startswith("    ")):
+        if code:
+            yield from (".. code-block:: fortran", "", *group, "")
+        else:
+            for part in "\n".join(group).split("\n\n"):
+                yield from (linked(" ".join(part.split())), "")
 
 
 def entry(title, procedure, calls, comments, linked):
@@ -99,8 +104,9 @@ def entry(title, procedure, calls, comments, linked):
     arguments = ", ".join(f"[{name}]" if name in optional else name for name in seen)
     verb = "call " if procedure.kind == "subroutine" else f"{procedure.result or 'value'} = "
     yield from (f".. describe:: {verb}{title}({arguments})", "")
-    if procedure.comment:
-        yield from (f"   {linked(procedure.comment)}", "")
+    # What has no comment of its own is told in C.
+    own = procedure.comment or (headers.read(comments[calls[0]]).prose[:1] if calls else [])
+    yield from ("   " + line if line else "" for line in prose(own, linked))
     texts = told(calls, comments)
     for name in [*seen, *filter(None, [procedure.result])]:
         if name not in OUTCOME:
@@ -122,10 +128,10 @@ def page(comments, linked):
                 "whose page has tolerances, statuses and equations; it counts positions from "
                 "(0, 0), Fortran from (1, 1). Names of options there, such as EPS, are "
                 "``wfpsf_option_eps`` here. Square brackets: may be left out.", "")
-    for text in paragraphs(about[1:], linked):
-        yield from (text, "")
+    yield from prose([line for line in about if not line.startswith("SPDX")], linked)
     for each in types:
-        yield from (each.name, "-" * len(each.name), "", linked(each.comment), "")
+        yield from (each.name, "-" * len(each.name), "")
+        yield from prose(each.comment, linked)
         noun = each.name.removeprefix("wfpsf_")
         for name, bound in each.bindings:
             for procedure in bound:

@@ -38,8 +38,8 @@ def calls_of(names, code):
     """The C functions that the definitions of these names call."""
     own = [part for part in re.split(r"\n\n(?=\S)", code)
            if any(re.search(rf"\b{name.rstrip('!')}\b", part) for name in names)]
-    calls = dict.fromkeys(re.findall(r"LibWfpsf\.(wfpsf_\w+)\(", "\n".join(own)))
-    return [call for call in calls if call != "wfpsf_options_create"]
+    calls = dict.fromkeys(re.findall(r"LibWfpsf\.(wfpsf_\w+)", "\n".join(own)))
+    return [call for call in calls if not call.endswith("_destroy")]
 
 
 def entry(documentation, code, names, known):
