@@ -257,6 +257,9 @@ def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
     head, cases = merged(sys.argv[1:])
+    for name in [*(path[1] for path in PATHS), *(peer[-1] for peer in PEERS), *dict(LOSSES)]:
+        if not named(cases, name):
+            print(f"no such case, its rows are left out: {name}", file=sys.stderr)
     blocks = {"run": run(head), "losses": losses(cases), "missed": missed(cases), "rooflines": rooflines(cases),
               "peers": peers(cases), "tables": tables(cases)}
     PAGE.write_text(filled(PAGE.read_text(), blocks))
