@@ -127,6 +127,8 @@ def named(cases, name):
 
 
 def duration(seconds):
+    if not seconds:
+        return ""
     for unit, name in ((1, "s"), (1e-3, "ms")):
         if seconds >= unit:
             return f"{seconds / unit:.3g} {name}"
@@ -134,7 +136,12 @@ def duration(seconds):
 
 
 def number(value):
-    return "" if value is None else f"{value:.1e}"
+    if value is None:
+        return ""
+    if value == 0 or 0.01 <= value < 1000:
+        return f"{value:.2g}"
+    digits, _, exponent = f"{value:.1e}".partition("e")
+    return f"{digits.removesuffix('.0')}e{int(exponent)}"
 
 
 def two_digits(value):
@@ -159,18 +166,25 @@ def tables(cases):
         own = [case for case in cases if area_of(case) == title]
         if not own:
             continue
+        kinds = {case["error_kind"] for case in own if case["error"] is not None}
         yield from ("", f"### {title}", "")
-        yield "| Case | Time | Target | Error | Asked | Error of what | Peak memory | Against |"
-        yield "|---|---|---|---|---|---|---|---|"
-        for case in own:
-            peer = case["baseline"]
-            yield row([
-                case["case"], duration(case["time_s"]),
-                duration(case["target_time_s"]) if case["target_time_s"] else "",
-                number(case["error"]), f"{case['target_error']:.0e}" if case["target_error"] else "",
-                "" if case["error"] is None else case["error_kind"],
-                f"{case['memory_bytes'] / 2**20:.0f} MiB",
-                f"{two_digits(case['ratio'])} × {peer['name']}" if peer else ""])
+        if len(kinds) == 1:
+            yield from (f"Errors: {kinds.pop()}.", "")
+        columns = {
+            "Case": lambda case: case["case"],
+            "Time": lambda case: duration(case["time_s"]),
+            "Target": lambda case: duration(case["target_time_s"] or 0),
+            "Error": lambda case: number(case["error"]),
+            "Asked": lambda case: number(case["target_error"]),
+            "Error of what": lambda case: case["error_kind"] if number(case["error"]) else "",
+            "Peak memory": lambda case: f"{case['memory_bytes'] / 2**20:.0f} MiB",
+            "Against": lambda case: f"{two_digits(case['ratio'])} × {case['baseline']['name']}"
+            if case["baseline"] else ""}
+        if not kinds:
+            del columns["Error of what"]
+        yield row(columns)
+        yield row("---" for _ in columns)
+        yield from (row(cell(case) for cell in columns.values()) for case in own)
 
 
 def run(head):
