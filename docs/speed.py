@@ -69,9 +69,9 @@ PEERS = [
     ("the same in J129, 10 wavelengths interpolated", "GalSim", 4.2, "4.2 s", "not reported",
      "chromatic PSF, Roman J129, +-16 native pixels, 1 SED, eps 1e-03"),
     ("a PSF on 128^2 from a pupil of 512^2", "POPPY", 0.07, "0.07 s", "pupil edges in pixels",
-     "PSF model, J129, +-16 native pixels, eps 1e-03"),
+     "PSF model, mask of 512^2, the same, eps 1e-06"),
     ("the same from 1024^2", "POPPY", 0.27, "0.27 s", "pupil edges in pixels",
-     "PSF model, J129, +-16 native pixels, eps 1e-03"),
+     "PSF model, mask of 1024^2, the same, eps 1e-06"),
     ("adaptive moments, 128^2", "GalSim's HSM, a call", 277e-6, "277 µs", "3e-8",
      "adaptive moments 128^2 (N = 4), tolerance 1e-08"),
     ("adaptive moments, 512^2", "GalSim's HSM, a call", 4065e-6, "4.1 ms", "3e-8",
@@ -92,6 +92,9 @@ LOSSES = [
     ("far light of a star made, wfirst-afta-c5 F184",
      "Far light, the short form of spikes, is made in {time} for each colour and is off by {error} "
      "of a spike."),
+    ("PSF model, mask of 4096^2, the same, eps 1e-06",
+     "A mask in place of a pupil's geometry is a sum over its pixels: {time} and {memory} of 4096^2, "
+     "and its pixels err by {error} where geometry is exact."),
     ("galaxy, the first one behind a PSF",
      "The first galaxy behind a PSF waits {peer} for a transfer function."),
     ("star stamp 32^2, model built, eps 1e-05",
