@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The halo of broadband light: what the curved edges of a pupil send far from the core, by the
-// method of stationary phase from where their normals point along the direction, and Fresnel's
-// integrals where they end.
+// The halo of broadband light: what the curved edges of a pupil send far from the core.
 #pragma once
 
-#include "optics/far_spikes.hpp"
+#include "optics/far_rims.hpp"
 
 #include <vector>
 
@@ -12,7 +10,7 @@ namespace wfpsf {
 
 class Halo {
   public:
-    Halo(const FarSource &source, const PupilEdges &edges);
+    Halo(const FarSource &source, const PupilEdges &edges, const std::vector<RimPoint> &points);
 
     // Adds fractions of the light, where they may be above the floor.
     void add(const PixelRow &row, double floor) const;
@@ -22,11 +20,9 @@ class Halo {
     double radius(double floor) const;
 
   private:
-    // Light times the cube of the distance r, by direction and by sqrt(nearest / r).
-    static constexpr int directions = 1440, distances = 12;
-    double nearest_, most_;
-    double corners_; // light of the edges' ends between the spikes, times r^4
-    std::vector<double> table_;
+    double nearest_, most_ = 0;
+    double corners_;            // light of the edges' ends between the spikes, times r^4
+    std::vector<double> table_; // light times the cube of the distance
 };
 
 } // namespace wfpsf

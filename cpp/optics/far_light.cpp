@@ -13,7 +13,7 @@ namespace wfpsf {
 namespace {
 
 constexpr double nearest_pixel = 24; // of the tables
-constexpr size_t colours = 14;       // enough for the fringes that the tables hold
+constexpr size_t colours = 11;       // enough for the fringes that the tables hold
 
 FarSource far_source(const Optics &optics, const Light &light, const PsfSettings &settings) {
     const double diameter = optics.aperture->diameter();
@@ -28,30 +28,74 @@ FarSource far_source(const Optics &optics, const Light &light, const PsfSettings
     const WavelengthRule rule(spectrum, colours);
     return {optics, settings,
             rule.exact() ? spectrum : Spectrum{rule.wavelengths(), rule.weights(spectrum)},
-            nearest_pixel};
-}
-
-// The spectrum as a box of the same variance in 1 / wavelength.
-double fringes_per_pixel(const FarSource &source) {
-    double mean = 0, square = 0;
-    for (size_t q = 0; q < source.spectrum.size(); ++q) {
-        const double wavenumber = 1 / source.spectrum.wavelength[q];
-        mean += source.spectrum.weight[q] * wavenumber;
-        square += source.spectrum.weight[q] * wavenumber * wavenumber;
-    }
-    return source.optics.aperture->diameter() * source.pixel() *
-           std::sqrt(12 * (square - mean * mean));
+            nearest_pixel, light};
 }
 
 } // namespace
 
 FarLight::FarLight(const Optics &optics, const Light &light, const PsfSettings &settings)
-    : FarLight(far_source(optics, light, settings), pupil_edges(optics.aperture->parts()),
-               settings.mirrored ? -1 : 1) {}
+    : FarLight(far_source(optics, light, settings), pupil_edges(optics.aperture->parts())) {}
 
-FarLight::FarLight(const FarSource &source, const PupilEdges &edges, double mirror)
-    : nearest_(source.nearest), mirror_(mirror), fringes_per_pixel_(fringes_per_pixel(source)),
-      spikes_(make_spikes(source, edges)), halo_(source, edges) {}
+// What the members are made from.
+struct FarLight::Parts {
+    Parts(const FarSource &source, const PupilEdges &edges)
+        : rims(rim_points(source, edges)),
+          visibility(std::make_shared<Visibility>(source, 1.1 * source.optics.aperture->diameter() *
+                                                              fringes_end * source.pixel())),
+          narrow(source, edges, *visibility, 9), wide(source, edges, *visibility, 18) {}
+    std::vector<RimPoint> rims;
+    std::shared_ptr<const Visibility> visibility;
+    EdgeColours narrow, wide;
+};
+
+namespace {
+
+// Edges of about one direction, which the tables hold with what goes on from their ends.
+bool together(const std::vector<Fringes> &tables, size_t a, size_t b) {
+    return a == b || std::ranges::any_of(tables, [&](const Fringes &table) {
+               return std::ranges::count(table.members(), a) > 0 &&
+                      std::ranges::count(table.members(), b) > 0;
+           });
+}
+
+PointFringes<RimPoint>::Known known_rims(const PupilEdges &edges,
+                                         const std::vector<Fringes> &tables) {
+    return [&, joined = junctions(edges)](size_t edge, const RimPoint &point) {
+        const auto &[from_x, from_y, to_x, to_y] = edges.straight[edge];
+        const auto at = point.position(to_y - from_y, from_x - to_x);
+        return std::ranges::any_of(joined, [&](const Junction &junction) {
+            const StraightEdge &other = edges.straight[junction.straight];
+            const double end_x = junction.at_to ? other.to_x : other.from_x;
+            const double end_y = junction.at_to ? other.to_y : other.from_y;
+            const Oval &o = point.oval;
+            return junction.kink < widest_kink && edges.curved[junction.curved].oval == o &&
+                   (at.x - o.x) * (end_x - o.x) + (at.y - o.y) * (end_y - o.y) >
+                       0 && // the same half
+                   together(tables, edge, junction.straight);
+        });
+    };
+}
+
+PointFringes<Corner>::Known known_corners(const std::vector<Fringes> &tables) {
+    return [&](size_t edge, const Corner &corner) {
+        return std::ranges::any_of(corner.straight,
+                                   [&](size_t other) { return together(tables, edge, other); });
+    };
+}
+
+} // namespace
+
+FarLight::FarLight(const FarSource &source, const PupilEdges &edges)
+    : FarLight(source, edges, Parts(source, edges)) {}
+
+FarLight::FarLight(const FarSource &source, const PupilEdges &edges, Parts parts)
+    : nearest_(source.nearest), mirror_(source.settings.mirrored ? -1 : 1),
+      spikes_(make_spikes(source, edges)), halo_(source, edges, parts.rims),
+      edge_fringes_(source, parts.wide, parts.visibility, spikes_.fringes),
+      rim_fringes_(source, parts.narrow, parts.visibility, std::move(parts.rims),
+                   known_rims(edges, spikes_.fringes)),
+      corner_fringes_(source, parts.narrow, parts.visibility, corners(source, edges),
+                      known_corners(spikes_.fringes)) {}
 
 void FarLight::add(const PixelRow &row, double floor) const {
     halo_.add(row, floor);
@@ -59,6 +103,9 @@ void FarLight::add(const PixelRow &row, double floor) const {
         spike.add(row, floor);
     for (const Fringes &fringes : spikes_.fringes)
         fringes.add(row, floor);
+    edge_fringes_.add(row, floor);
+    rim_fringes_.add(row, floor);
+    corner_fringes_.add(row, floor);
 }
 
 double FarLight::at(double x, double y) const {
@@ -113,20 +160,16 @@ double FarLight::brightest_beyond(double r) const {
         for (const Fringes &fringes : spikes_.fringes)
             if (std::abs(fringes.axes().across(on.axes().nx, on.axes().ny)) < same_direction)
                 sum += fringes.brightest(r);
+        sum += edge_fringes_.brightest(r, on.axes()) + rim_fringes_.brightest(r, on.axes()) +
+               corner_fringes_.brightest(r, on.axes());
         most = std::max(most, sum);
     }
     return halo_.brightest(r) + most;
 }
 
 FarLight::Error FarLight::relative_error(double r) const {
-    // What is left of fringes between a spike and the halo.
-    const double fringes = fringes_per_pixel_ * r;
-    double brightest = 0;
-    for (const Spike &spike : spikes_.spikes)
-        brightest = std::max(brightest, spike.brightest(r));
-    const double visible = std::min(0.5, 0.04 + 0.7 / fringes);
-    return {visible * 2 * std::sqrt(halo_.brightest(r) / (brightest + halo_.brightest(r))),
-            std::min(0.5, 0.07 + 0.7 / fringes)};
+    constexpr double between_rims = 0.18, on_spikes = 0.35;
+    return {on_spikes * halo_.brightest(r) / brightest_beyond(r), between_rims};
 }
 
 std::vector<FarLight::Direction> FarLight::spikes(double r, double floor) const {

@@ -5,7 +5,9 @@
 #pragma once
 
 #include "image/view.hpp"
+#include "optics/far_edge_fringes.hpp"
 #include "optics/far_halo.hpp"
+#include "optics/far_point_fringes.hpp"
 #include "optics/far_spikes.hpp"
 
 #include <vector>
@@ -47,23 +49,27 @@ class FarLight {
     // The radius from which on all halo between the spikes is below the floor.
     double halo_radius(double floor) const { return halo_.radius(floor); }
 
-    // Estimate of the rms error of single pixels as a share of their light, on the brightest spike
-    // and between the spikes: fringes with light from distant parts of the pupil, of which the sum
-    // keeps none. Fitted to the worst of what was measured at r = 64..256 on Roman's pupil and
-    // WFIRST's; Roman's spikes are 2 to 4 times better.
+    // The largest error of pixels at r or farther: near the spikes' lines as a share of
+    // brightest_beyond(r), elsewhere of halo_beyond(r). Fringes between rims, of which the halo has
+    // the mean only. Fitted to the worst of all pixels at 24..256 off Roman's pupil and WFIRST's,
+    // in bands of 2.5 to 18 fringes at the nearest; by then the rms is a quarter or less.
     struct Error {
         double spikes, halo;
     };
     Error relative_error(double r) const;
 
   private:
-    FarLight(const FarSource &source, const PupilEdges &edges, double mirror);
+    struct Parts;
+    FarLight(const FarSource &source, const PupilEdges &edges);
+    FarLight(const FarSource &source, const PupilEdges &edges, Parts parts);
     void add(const PixelRow &row, double floor) const;
 
     double nearest_, mirror_;
-    double fringes_per_pixel_; // across the pupil, that light of all colours differs by
     Spikes spikes_;
     Halo halo_;
+    EdgeFringes edge_fringes_;
+    PointFringes<RimPoint> rim_fringes_;
+    PointFringes<Corner> corner_fringes_;
 };
 
 } // namespace wfpsf

@@ -8,6 +8,7 @@
 #include "optics/fresnel.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <numeric>
 
@@ -31,11 +32,6 @@ constexpr double pi = std::numbers::pi;
 }
 
 // ----------------------------------------------------------------------------------- runs in a row
-
-// The pixels first..last of a row.
-struct Run {
-    int64_t first, last;
-};
 
 // Parts of a row between the roots of some conditions, where the middle is accepted.
 template <class Accept>
@@ -71,6 +67,35 @@ void add_roots(std::vector<double> &roots, double a, double b, double c) {
 
 } // namespace
 
+Run between(Run run, double start, double step, double low, double high) {
+    const double a = (low - start) / step, b = (high - start) / step;
+    if (std::isfinite(a) && std::isfinite(b)) {
+        const auto first = static_cast<double>(run.first), last = static_cast<double>(run.last);
+        run.first = static_cast<int64_t>(std::ceil(std::clamp(std::min(a, b), first, last + 1)));
+        run.last = static_cast<int64_t>(std::floor(std::clamp(std::max(a, b), first - 1, last)));
+    }
+    return run;
+}
+
+std::vector<Run> runs_along(const SpikeAxes &axes, const PixelRow &row, double reach,
+                            double nearest, double farthest) {
+    const auto &[nx, ny] = axes;
+    if (std::abs(row.y) > farthest + reach)
+        return {};
+    std::vector<double> roots{-ny * row.y / nx}; // along = 0
+    for (const double side : {-1.0, 1.0}) {
+        roots.push_back((nx * row.y - side * reach) / ny);
+        for (const double end : {nearest, farthest})
+            roots.push_back((side * end - ny * row.y) / nx);
+    }
+    return accepted_runs(std::move(roots), row.x, static_cast<int64_t>(row.light.size()),
+                         [&](double x) {
+                             const double along = std::abs(axes.along(x, row.y));
+                             return std::abs(axes.across(x, row.y)) <= reach && along <= farthest &&
+                                    along >= nearest;
+                         });
+}
+
 double FarSource::bandwidth() const {
     return optics.aperture->diameter() * pixel() / std::ranges::min(spectrum.wavelength);
 }
@@ -85,12 +110,6 @@ double FarSource::mean_wavelength(int power) const {
 // --------------------------------------------------------------------------------------- one spike
 
 namespace {
-
-// 1 in the inner two thirds of -1..1, smoothly to 0 outside.
-[[gnu::always_inline]] inline double within(double t) {
-    const double s = std::clamp(3 * (1 - std::abs(t)), 0.0, 1.0);
-    return s * s * (3 - 2 * s);
-}
 
 // What is left of the light of an edge's end where an arc goes on from it smoothly, by the place of
 // the arc's point of stationary phase: the end's amplitude, 1 / (pi x), less Fresnel's tail.
@@ -221,28 +240,18 @@ WFPSF_VECTORISED void add_fringes(const FringeTable &fringes, double side, doubl
 } // namespace
 
 double Fringes::brightest(double r) const {
+    if (r > end_)
+        return 0;
     const double row = (r - nearest_) * per_along_;
     const auto last = static_cast<double>(rows_ - 1);
     return most_[static_cast<size_t>(std::clamp(row, 0.0, last))] / (r * r);
 }
 
 void Fringes::add(const PixelRow &row, double floor) const {
-    const auto &[nx, ny] = axes_;
     const int64_t half = columns_ / 2;
     const double reach = static_cast<double>(half - 2) / per_across_;
-    const double farthest = std::sqrt(most_.front() / floor);
-    std::vector<double> roots{-ny * row.y / nx}; // along = 0
-    for (const double side : {-1.0, 1.0}) {
-        roots.push_back((nx * row.y - side * reach) / ny);
-        for (const double end : {nearest_, farthest})
-            roots.push_back((side * end - ny * row.y) / nx);
-    }
-    const auto runs = accepted_runs(std::move(roots), row.x, static_cast<int64_t>(row.light.size()),
-                                    [&](double x) {
-                                        const double along = std::abs(axes_.along(x, row.y));
-                                        return std::abs(axes_.across(x, row.y)) <= reach &&
-                                               along <= farthest && along >= nearest_;
-                                    });
+    const double farthest = std::min(end_, std::sqrt(most_.front() / floor));
+    const auto runs = runs_along(axes_, row, reach, nearest_, farthest);
     for (const Run &run : runs) {
         const PixelRow part = row.part(run.first, run.last);
         const double middle = part.x + static_cast<double>(part.light.size() - 1) / 2;
@@ -360,9 +369,14 @@ class SpikeTables {
         : source_(source), step_(0.25 / std::max(1.0, source.bandwidth())) {
         for (const StraightEdge &edge : edges.straight)
             edges_.push_back(waves(edge));
-        for (const Junction &junction : junctions(edges))
+        for (const Junction &junction : junctions(edges)) {
+            EdgeWaves &edge = edges_[junction.straight];
+            const CurvedEdge &arc = edges.curved[junction.curved];
             if (junction.kink < widest_kink)
-                add_arc(edges_[junction.straight], edges.curved[junction.curved], junction);
+                add_arc(edge, arc, junction);
+            else
+                add_corner(edge, arc, junction);
+        }
     }
 
     Spikes spikes() const {
@@ -382,8 +396,8 @@ class SpikeTables {
     static constexpr std::ptrdiff_t half = 256;       // of a profile, steps
     static constexpr std::ptrdiff_t filter_half = 20; // of the pixel's filter, steps
     static constexpr std::ptrdiff_t wide = half + 1 + filter_half;
-    static constexpr double widest_group = 7 * pi / 180;      // between neighbours in a group
-    static constexpr double widest_kink = 0.2, smooth = 0.01; // radians
+    static constexpr double widest_group = 7 * pi / 180; // between neighbours in a group
+    static constexpr double smooth = 0.01;               // radians
 
     EdgeWaves waves(const StraightEdge &edge) const {
         const double dx = edge.to_x - edge.from_x, dy = edge.to_y - edge.from_y;
@@ -416,6 +430,29 @@ class SpikeTables {
             }
         }
         return out;
+    }
+
+    // What an arc that turns off from the edge's end sends from there. It goes as the inverse of k,
+    // like the slope.
+    void add_corner(EdgeWaves &edge, const CurvedEdge &arc, const Junction &junction) const {
+        const Oval &o = arc.oval;
+        const double a = junction.at_begin ? arc.begin : arc.end;
+        const double u = std::cos(a), v = std::sin(a);
+        const double x = o.x + o.half_width * u, y = o.y + o.shear * u + o.half_height * v;
+        // Out of the lit side, and away from the corner.
+        const double way = arc.lit_inside ? 1 : -1, onwards = junction.at_begin ? 1 : -1;
+        const double dx = -o.half_width * v, dy = o.half_height * u - o.shear * v;
+        const double normal = way * edge.axes.along(dy, -dx);
+        const double tangent = onwards * edge.axes.along(dx, dy);
+        const double s = edge.axes.across(x - edge.x, y - edge.y);
+        for (size_t q = 0; q < source_.spectrum.size(); ++q) {
+            const double wavelength = source_.spectrum.wavelength[q];
+            const double turn = source_.pixel() * step_ / wavelength;
+            const Complex wave = std::polar(normal / tangent / (2 * pi),
+                                            2 * pi * source_.wavefront(wavelength)(x, y) - pi / 2);
+            add_wave(wave, -turn * static_cast<double>(wide) * s, turn * s, edge.slope[q].re,
+                     edge.slope[q].im);
+        }
     }
 
     void add_arc(EdgeWaves &edge, const CurvedEdge &arc, const Junction &junction) const {
@@ -536,6 +573,7 @@ class SpikeTables {
         Fringes out;
         double nx = 0, ny = 0;
         for (const EdgeWaves *e : group) {
+            out.members_.push_back(static_cast<size_t>(e - edges_.data()));
             const double side = e->axes.nx * group[0]->axes.nx + e->axes.ny * group[0]->axes.ny;
             nx += std::copysign(e->length, side) * e->axes.nx;
             ny += std::copysign(e->length, side) * e->axes.ny;
@@ -552,7 +590,7 @@ class SpikeTables {
             right = std::max(right, middle + e->length / 2);
         }
         const auto [blue, red] = std::ranges::minmax(source_.spectrum.wavelength);
-        constexpr double per_fringe = 10, most_fringes = 5, farthest = 1200, per_wave = 4.5;
+        constexpr double per_fringe = 10, most_fringes = 3.5, farthest = 1200, per_wave = 4.5;
         const double per_pixel = std::max(high - low, 1e-3) * source_.pixel();
         const double along_step = std::min(20.0, blue / per_pixel / per_fringe);
         const double end = std::min(farthest, most_fringes / (per_pixel * (1 / blue - 1 / red)));
@@ -560,6 +598,8 @@ class SpikeTables {
             std::floor(blue / ((right - left) * source_.pixel() * per_wave * step_)), 1.0, 4.0);
         const double step = steps * step_;
         out.nearest_ = source_.nearest;
+        // What an edge makes with its arcs stays the same from there on.
+        out.end_ = group.size() > 1 ? end : std::numeric_limits<double>::infinity();
         out.per_along_ = 1 / along_step;
         out.per_across_ = 1 / step;
         out.rows_ =

@@ -9,7 +9,9 @@
 #include "optics/pupil_edges.hpp"
 #include "optics/spectrum.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -20,8 +22,9 @@ namespace wfpsf {
 struct FarSource {
     const Optics &optics;
     const PsfSettings &settings;
-    Spectrum spectrum; // a Gauss rule of a few points
-    double nearest;    // native pixels
+    Spectrum spectrum;  // a Gauss rule of a few points
+    double nearest;     // native pixels
+    const Light &light; // that the spectrum is of
 
     double area() const { return optics.aperture->area(); }
     double pixel() const { return settings.pixel_scale; }
@@ -52,8 +55,34 @@ struct PixelRow {
     }
 };
 
+// The pixels first..last of a row.
+struct Run {
+    int64_t first, last;
+};
+
+// The part of a run where start + step * pixel is between two bounds.
+Run between(Run run, double start, double step, double low, double high);
+
+// Those up to `reach` across from a spike's line and between two distances along it, on either side
+// of the star; no run is on both.
+std::vector<Run> runs_along(const SpikeAxes &axes, const PixelRow &row, double reach,
+                            double nearest, double farthest);
+
+// 1 in the inner two thirds of -1..1, smoothly to 0 outside.
+[[gnu::always_inline]] inline double within(double t) {
+    const double s = std::clamp(3 * (1 - std::abs(t)), 0.0, 1.0);
+    return s * s * (3 - 2 * s);
+}
+
 // Spikes that are so close in angle, radians, may lie on each other.
 inline constexpr double same_direction = 0.25;
+
+// Radians that the outline may turn by at an edge's end for a curved edge beyond to belong to the
+// edge's spike.
+inline constexpr double widest_kink = 0.2;
+
+// No fringes from there on, native pixels.
+inline constexpr double fringes_end = 640;
 
 // The light of one edge by itself, within 45 degrees of the spike; what is left is no spike.
 class Spike {
@@ -95,6 +124,8 @@ class Fringes {
   public:
     void add(const PixelRow &row, double floor) const;
     const SpikeAxes &axes() const { return axes_; }
+    const std::vector<size_t> &members() const { return members_; } // of the straight edges
+    double end() const { return end_; }
 
     // The most at a distance of r or more.
     double brightest(double r) const;
@@ -102,10 +133,12 @@ class Fringes {
   private:
     friend class SpikeTables;
     SpikeAxes axes_{};
-    double nearest_ = 0, per_along_ = 0, per_across_ = 0; // entries a native pixel
+    std::vector<size_t> members_;
+    double nearest_ = 0, end_ = 0;          // native pixels
+    double per_along_ = 0, per_across_ = 0; // entries a native pixel
     int64_t rows_ = 0, columns_ = 0;
     // On either side of the star: light times the distance's square by distance along and position
-    // across. The last row holds for all distances beyond.
+    // across.
     std::array<std::vector<double>, 2> table_;
     std::vector<double> most_; // from each distance on
 };

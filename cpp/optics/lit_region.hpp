@@ -18,6 +18,7 @@ namespace wfpsf {
 // x = x0 + half_width u, y = y0 + shear u + half_height v, u^2 + v^2 <= 1.
 struct Oval {
     double x, y, half_width, shear, half_height;
+    bool operator==(const Oval &) const = default;
 };
 
 // A convex set is the intersection of such bounds. A HalfPlane is its side nx x + ny y >= d.

@@ -89,10 +89,9 @@ StampMemory Psf::draw_memory(const Star &star, int64_t oversampling, int64_t nx,
 template <class T>
 void Psf::add(std::span<const Star> stars, int64_t oversampling, View<T> image, int threads) const {
     on_bands_of_rows(image.ny, threads, [&](int64_t first_row, int64_t last_row) {
-        const double radius = settings_.radius * static_cast<double>(oversampling);
-        add_stars_to_rows(
-            stars, [radius](size_t) { return radius; }, oversampling, image, first_row, last_row,
-            [this](size_t) -> const Field & { return field_; });
+        StarRows<T> rows(oversampling, image, first_row, last_row);
+        for (const Star &star : stars)
+            rows.add(field_, star, settings_.radius);
     });
 }
 

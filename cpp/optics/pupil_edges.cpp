@@ -106,8 +106,7 @@ bool same(const HalfPlane &a, const HalfPlane &b) {
     return a.nx == b.nx && a.ny == b.ny && a.d == b.d;
 }
 bool same(const Oval &a, const Oval &b) {
-    return a.x == b.x && a.y == b.y && a.half_width == b.half_width && a.shear == b.shear &&
-           a.half_height == b.half_height;
+    return a == b;
 }
 bool same(const auto &, const auto &) {
     return false;

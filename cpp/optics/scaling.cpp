@@ -41,13 +41,6 @@ WFPSF_VECTORISED void combine(const std::vector<double> &weights,
     }
 }
 
-// Adds weight * values.
-WFPSF_VECTORISED void add_scaled(double weight, const double *__restrict values, int64_t count,
-                                 double *__restrict sums) {
-    for (int64_t i = 0; i < count; ++i)
-        sums[i] += weight * values[i];
-}
-
 // One wavelength's image: what it is made of, and where its samples along an axis lie among those
 // it is interpolated from; `ratio` of their steps apart, and both have their middle on the axis.
 struct SizedColour {

@@ -22,4 +22,10 @@ WFPSF_VECTORISED void sum_blocks(const double *weights, int64_t taps, const doub
     }
 }
 
+WFPSF_VECTORISED void add_scaled(double weight, const double *__restrict values, int64_t count,
+                                 double *__restrict sums) {
+    for (int64_t i = 0; i < count; ++i)
+        sums[i] += weight * values[i];
+}
+
 } // namespace wfpsf

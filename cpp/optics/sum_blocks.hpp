@@ -20,4 +20,7 @@ inline int64_t blocks_for(int64_t count) {
 void sum_blocks(const double *weights, int64_t taps, const double *const *starts, int64_t step,
                 int64_t stride, int64_t count, double *sums);
 
+// sums[i] += weight * values[i].
+void add_scaled(double weight, const double *values, int64_t count, double *sums);
+
 } // namespace wfpsf

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "error/progress.hpp"
+#include "optics/light_modes.hpp"
 #include "optics/psf.hpp"
 
 #include <functional>
@@ -20,11 +21,10 @@ struct Region {
     double x0, y0, x1, y1;
 };
 
-// How much of a PSF a star needs: the light within `radius` native pixels of it along both axes,
-// and each of the fields that PSFs are sums of within a radius of its own; of those after, nothing.
+// How much of a PSF a star needs: the light within `radius` native pixels of it along both axes, but
+// for that share of its light in any pixel.
 struct StarDetail {
-    double radius;
-    std::span<const double> field_radii;
+    double radius, left_out;
 };
 
 // Immutable once made.
@@ -37,24 +37,20 @@ class VaryingPsf {
     // Outside the region: WFPSF_ERROR_RANGE.
     Psf at(double x, double y) const;
 
-    // Adds stars as Psf::add() does, each with the PSF of its own place; place (x0, y0) is the
-    // centre of the image's first native pixel.
+    // Adds stars as Psf::add() does, each with the PSF of its own place, to a tenth of
+    // settings().eps; place (x0, y0) is the centre of the image's first native pixel.
     template <class T>
     void add(std::span<const Star> stars, double x0, double y0, int64_t oversampling, View<T> image,
              int threads) const;
 
-    // Adds stars to rows first_row..last_row, each in its own detail and, off the region, with the
-    // PSF of the nearest place in it.
+    // Each in its own detail and, off the region, with the PSF of the nearest place in it.
     template <class T>
-    void add_to_rows(std::span<const Star> stars, std::span<const StarDetail> details, double x0,
-                     double y0, int64_t oversampling, View<T> image, int64_t first_row,
-                     int64_t last_row) const;
+    void add(std::span<const Star> stars, std::span<const StarDetail> details, double x0, double y0,
+             int64_t oversampling, View<T> image, int threads) const;
 
-    // What the first `rank` fields leave out: the largest fraction of the light in a native pixel,
-    // at any place.
-    double left_out(size_t rank) const { return left_out_[0][rank]; }
-    // StarDetail::field_radii of stamps of a radius that lack no more than `left_out` in any pixel.
-    std::vector<double> field_radii(double radius, double left_out) const;
+    // From the core on errors fall as the noise of bright stars does, as the root of the light, down
+    // to this share.
+    static constexpr double error_far_off = 0.3;
 
     const PsfSettings &settings() const { return settings_; }
     // Estimates in units of the peak pixel, at any place: of all errors, of the interpolation
@@ -72,22 +68,17 @@ class VaryingPsf {
     };
     Place place(double u, double v) const; // of u, v in [-1, 1]
     bool is_inside(double x, double y) const;
-    Field exact(double u, double v, double radius);
-    // The light at the nodes of the present degree, by rows; `coarse`: that of half the degree.
-    // Nodes that are new reach `radius` native pixels.
-    std::vector<Plane<double>> refined(std::vector<Plane<double>> coarse, double radius,
-                                       const Progress &progress);
-    void expand(const std::vector<Plane<double>> &nodes, double radius);
-    void find_left_out();
-    // The radius within which the present degree errs by too much. Far from the core PSFs vary by
-    // less, and a low degree will do.
-    double measure(double radius);
-    // Of the first modes, as many as there is room for.
-    void weights(double x, double y, std::span<double> out) const;
+    class ExactFields;
+    // The polynomials of the present degree out to `radius` native pixels.
+    void expand(ExactFields &exact, double radius, const Progress &progress);
+    // The radius within which they err by too much. Far from the core PSFs vary by less, and a low
+    // degree will do.
+    double measure(ExactFields &exact, double radius);
+    Place scaled(double x, double y) const; // to [-1, 1], the nearest place there
     Field sum_at(double x, double y) const;
-    template <class T, class DetailOf>
-    void add_rows(std::span<const Star> stars, DetailOf detail_of, double x0, double y0,
-                  int64_t oversampling, View<T> image, int64_t first_row, int64_t last_row) const;
+    struct CellStars;
+    std::vector<CellStars> by_cell(std::span<const Place> places,
+                                   std::span<const StarDetail> details) const;
 
     OpticsAt optics_;
     Light light_;
@@ -97,16 +88,11 @@ class VaryingPsf {
     int64_t exact_psfs_ = 0;
     double error_ = 0, interpolation_error_ = 0;
     double error_beyond_ = 0; // of the interpolation, where no higher degree is needed
-    Field plain_;             // what the fields of all places have in common
-    // Coefficients of T_i(x) T_j(y), the largest first.
-    struct Mode {
-        int i, j;
-        double largest; // absolute value
-        Plane<double> light;
-    };
-    std::vector<Mode> mode_;
-    // left_out_[r][n]: beyond r native pixels, at most, with n modes taken.
-    std::vector<std::vector<double>> left_out_;
+    std::vector<double>
+        falls_;           // what errors may be at 0, 1, ... native pixels, of that at the core
+    double left_out_ = 0; // of stars, if nothing else is asked for
+    Field plain_;         // what the fields of all places have in common
+    std::vector<LightMode> mode_; // the brightest first
 };
 
 } // namespace wfpsf

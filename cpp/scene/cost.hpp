@@ -16,7 +16,7 @@ inline double digits(double eps) {
 // A PSF that reaches `radius` native pixels, of light of a relative bandwidth (0: one colour).
 inline double psf(double radius, double eps, double bandwidth) {
     if (bandwidth > 0)
-        return digits(eps) * (1.5e-3 + 1.6e-5 * radius * radius);
+        return digits(eps) * (1.3e-3 + 1.1e-5 * radius * radius * (1 + radius / 600));
     const double per_area = radius <= 64 ? 2.7e-6 : 8.5e-6;
     return digits(eps) / 6 * (0.7e-3 + per_area * radius * radius);
 }
@@ -27,16 +27,15 @@ inline double large_stamp(double pixels, double radius, double bandwidth) {
     return wavelengths * 3e-6 * pixels;
 }
 
-// A PSF of all of a detector whose optics vary: exact ones, and what they have in common.
+// A PSF of all of a detector whose optics vary: many exact ones near the core, few far from it.
 inline double shared_psf(double radius, double eps, double bandwidth, bool varies) {
     if (!varies)
         return psf(radius, eps, bandwidth);
-    // Far from the core few places are enough: the light that varies falls as the square of the
-    // distance.
-    const double exact = eps >= 2e-5 ? 38 : eps >= 1e-8 ? 100 : 300;
-    constexpr double far = 16;
-    const double core = std::min(radius, std::max(4.0, 16 * std::sqrt(1e-5 / eps)));
-    return 0.7 * (far * psf(radius, eps, bandwidth) + (exact - far) * psf(core, eps, bandwidth));
+    const double exact = eps >= 5e-5 ? 24 : eps >= 1e-8 ? 80 : 290;
+    constexpr double near = 6, far = 7; // exact ones of some radius, of the largest
+    const auto within = [=](double r) { return psf(std::min(radius, r), eps, bandwidth); };
+    const double core = std::max(4.0, 9 * std::sqrt(1e-5 / eps));
+    return 0.8 * (far * within(radius) + near * within(2 * core) + exact * within(core));
 }
 
 // Samples of a field that stamps of a radius are drawn from.
@@ -46,10 +45,15 @@ inline double samples(double radius) {
     return width * width;
 }
 
-// A star's stamp of width^2 pixels from a field, of so many native pixels' radius; and so many
-// samples of fields that are summed first.
-inline double stamp(double width, double radius, double summed) {
-    return 1.2e-6 + 5e-9 * width * (width + 2 * 5 * radius) + 0.45e-9 * summed;
+// A star's stamp of width^2 pixels from a field made to `eps`, of so many native pixels' radius.
+inline double stamp(double width, double radius, double eps) {
+    return 0.8e-6 + 0.15e-9 * (5 + digits(eps)) * width * (width + 2 * 5 * radius);
+}
+
+// What one of many stars takes to get the PSF of its place, as it differs within a radius from what
+// those near by share.
+inline double correction(double radius, double eps) {
+    return 2e-6 + stamp(2 * radius + 1, radius, eps) + 0.55e-9 * samples(radius);
 }
 
 // Far light on that many pixels, drawn by itself; and from a table, where it is bright enough.

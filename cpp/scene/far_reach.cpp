@@ -14,13 +14,13 @@ namespace {
 constexpr double farthest = 8192; // native pixels
 constexpr double rings_per_octave = 4;
 
-double radius_of(const FarLight &light, double floor) {
+double radius_of(const FarLight &light, double bound) {
     double low = light.nearest(), high = farthest;
-    if (light.brightest_beyond(low) <= floor)
+    if (light.brightest_beyond(low) <= bound)
         return low;
     while (high / low > 1.02) {
         const double middle = std::sqrt(low * high);
-        (light.brightest_beyond(middle) > floor ? low : high) = middle;
+        (light.brightest_beyond(middle) > bound ? low : high) = middle;
     }
     return high;
 }
@@ -38,10 +38,11 @@ std::optional<FarLight> far_light_of(const Optics &optics, const Light &light,
     }
 }
 
-FarReach::FarReach(const FarLight &light) : nearest_(light.nearest()) {
-    double floor = light.brightest_beyond(nearest_);
+FarReach::FarReach(const FarLight &light, double brightest)
+    : nearest_(light.nearest()), of_bound_(brightest) {
+    double floor = of_bound_ * light.brightest_beyond(nearest_);
     while (floor > 1e-14) {
-        const double radius = radius_of(light, floor);
+        const double radius = radius_of(light, floor / of_bound_);
         const double halo = std::min(light.halo_radius(floor), radius);
         double width = 0;
         const double half_way = std::sqrt(nearest_ * radius);
@@ -55,9 +56,9 @@ FarReach::FarReach(const FarLight &light) : nearest_(light.nearest()) {
     }
     double r = nearest_;
     while (r < farthest) {
-        rings_.push_back({light.brightest_beyond(r),
-                          std::max(light.relative_error(r).spikes * light.brightest_beyond(r),
-                                   light.relative_error(r).halo * light.halo_beyond(r))});
+        const double spikes = of_bound_ * light.brightest_beyond(r);
+        rings_.push_back({spikes, std::max(light.relative_error(r).spikes * spikes,
+                                           light.relative_error(r).halo * light.halo_beyond(r))});
         r *= std::exp2(1 / rings_per_octave);
     }
 }

@@ -15,7 +15,8 @@ std::optional<FarLight> far_light_of(const Optics &optics, const Light &light,
 
 class FarReach {
   public:
-    explicit FarReach(const FarLight &light);
+    // `brightest`: how much of its bound the brightest pixel gets.
+    FarReach(const FarLight &light, double brightest);
 
     struct Step {
         double floor;  // share of the light: pixels that get less may be left out
@@ -32,7 +33,7 @@ class FarReach {
     double nearest() const { return nearest_; }
 
   private:
-    double nearest_;
+    double nearest_, of_bound_;
     std::vector<Step> steps_;
     struct Ring {
         double brightest, error;

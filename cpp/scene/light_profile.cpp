@@ -43,8 +43,8 @@ double LightProfile::at(const std::vector<double> &by_radius, double radius, int
 }
 
 double LightProfile::mean_at(double radius) const {
-    const double light = std::max(beyond(radius - 1) - beyond(radius), 0.0) / safety;
-    return light / (8 * radius);
+    const double light = expected_beyond(radius - 1) - expected_beyond(radius);
+    return std::max(light, 0.0) / (8 * radius);
 }
 
 } // namespace wfpsf

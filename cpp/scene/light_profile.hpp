@@ -15,12 +15,16 @@ class LightProfile {
     // light outside a square as its size.
     explicit LightProfile(const Psf &psf);
 
-    double peak() const { return brightest_[0]; }
+    double peak() const { return brightest_[0] / safety; }
 
     // Fractions of the light: the largest in any native pixel whose centre is not within `radius`
     // native pixels of the star along both axes, and all of it there.
-    double brightest_beyond(double radius) const { return at(brightest_, radius, 2); }
+    double brightest_beyond(double radius) const { return at(brightest_, radius + 1, 2); }
     double beyond(double radius) const { return at(outside_, radius, 1); }
+    // What is expected there, where the former bounds it.
+    double expected_beyond(double radius) const { return beyond(radius) / safety; }
+    // Where `brightest_beyond` comes from what was seen.
+    double seen() const { return static_cast<double>(brightest_.size()) - 2; }
     // What is expected in a native pixel, on the average of all directions.
     double mean_at(double radius) const;
     // How much the latter may be off, for all places of a detector.

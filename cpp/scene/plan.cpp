@@ -33,7 +33,7 @@ double far_difference(const FarLight &a, const FarLight &b) {
     return most / brightest;
 }
 
-constexpr double safety_of_squares = 1.5;
+constexpr double safety_of_squares = 1.2;
 
 // Offers that another one beats in time and error are of no use at any price.
 using Offers = std::vector<Offer>;
@@ -150,24 +150,37 @@ ScenePlan::ScenePlan(const SceneOptics &optics, std::vector<PlacedSource> source
 }
 
 void ScenePlan::learn_colours(const SceneOptics &optics) {
-    const PsfSettings settings = probe_settings(optics.settings);
+    PsfSettings settings = probe_settings(optics.settings);
     const Optics middle = optics.middle();
     for (size_t c = 0; c < optics.lights.size(); ++c) {
         const Light &light = optics.lights[c];
         ColourFacts &facts = colours_.emplace_back();
-        facts.profile = LightProfile(make_psfs(middle, {&light, 1}, settings)[0]);
-        facts.bandwidth = bandwidth_of(light);
-        facts.varies = optics.varies;
         double brightest = 0;
         for (const PlannedGroup &planned : planned_)
             if (planned.group.colour == static_cast<int32_t>(c))
                 brightest = std::max(brightest, planned.group.brightest);
+        // Bright stars are seen farther.
+        settings.radius = 32;
+        const auto look = [&] {
+            facts.profile = LightProfile(make_psfs(middle, {&light, 1}, settings)[0]);
+            return brightest * facts.profile.brightest_beyond(facts.profile.seen());
+        };
+        if (look() > budget_.error()) {
+            settings.radius = 64;
+            look();
+        }
+        facts.bandwidth = bandwidth_of(light);
+        facts.varies = optics.varies;
         // Far light is known only if it matters.
-        if (brightest * facts.profile.brightest_beyond(settings.radius) < 0.1 * budget_.error())
+        const double seen = facts.profile.seen();
+        if (brightest * facts.profile.brightest_beyond(seen) < 0.1 * budget_.error())
             continue;
         if (auto far = far_light_of(middle, light, settings)) {
             facts.far_light = std::make_shared<const FarLight>(std::move(*far));
-            facts.far.emplace(*facts.far_light);
+            const double from = 0.75 * seen;
+            facts.far.emplace(*facts.far_light,
+                              std::min(1.0, facts.profile.brightest_beyond(from) /
+                                                facts.far_light->brightest_beyond(from)));
             if (optics.varies)
                 facts.far_varies = far_difference(
                     *facts.far_light,

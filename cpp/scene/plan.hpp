@@ -38,7 +38,7 @@ struct PlannedGroup {
     PixelError error = {};
 };
 
-// Of groups together: 1.5 times the root of the sum of the local errors' squares, for those pixels
+// Of groups together: 1.2 times the root of the sum of the local errors' squares, for those pixels
 // where several meet, and the sum of the means.
 double together(std::span<const PixelError> errors);
 

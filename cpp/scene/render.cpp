@@ -56,7 +56,7 @@ template <class T> class Renderer {
 
     RenderReport run() {
         make_models();
-        find_details();
+        find_error();
         draw_shared();
         draw_galaxies();
         draw_own();
@@ -87,24 +87,19 @@ template <class T> class Renderer {
         report_.models_s = clock.seconds();
     }
 
-    // As little of the fields as leaves out no more than was planned.
-    void find_details() {
+    // What came of the plan's tolerances.
+    void find_error() {
         std::vector<PixelError> errors;
         for (const PlannedGroup &planned : plan_.groups()) {
             const Way &way = planned.way;
-            const double peak = plan_.colour(planned.group.colour).profile.peak();
-            std::vector<double> &radii = field_radii_.emplace_back();
-            double of_psf = way.eps * peak;
-            if (way.drawing == Drawing::shared) {
-                const VaryingPsf &model = *models_[static_cast<size_t>(planned.group.colour)];
-                radii = model.field_radii(way.radius, way.left_out);
-                of_psf = model.error_estimate() * peak;
-            }
-            errors.push_back(
-                {std::max(planned.error.local,
-                          in_noise_of_star(planned.group, plan_.colour(planned.group.colour),
-                                           plan_.budget(), of_psf)),
-                 planned.error.mean});
+            const double eps =
+                way.drawing == Drawing::shared
+                    ? models_[static_cast<size_t>(planned.group.colour)]->error_estimate()
+                    : way.eps;
+            errors.push_back({std::max(planned.error.local,
+                                       psf_error(planned.group, plan_.colour(planned.group.colour),
+                                                 plan_.budget(), eps, way.left_out)),
+                              planned.error.mean});
         }
         report_.error = together(errors);
     }
@@ -177,7 +172,7 @@ template <class T> class Renderer {
             if (!frame_.reaches(star, reach))
                 continue;
             stars.push_back(star);
-            details.push_back({way.radius, field_radii_[group]});
+            details.push_back({way.radius, way.left_out});
             far.push_back(way.far);
             const double samples = reach * static_cast<double>(plan_.image().oversampling);
             low = std::min(low, star.y - samples);
@@ -187,10 +182,9 @@ template <class T> class Renderer {
             return;
         report_.drawn += static_cast<int64_t>(stars.size());
         const auto c = static_cast<size_t>(colour);
+        models_[c]->add(std::span<const Star>(stars), details, plan_.image().x0, plan_.image().y0,
+                        plan_.image().oversampling, image_, threads_);
         on_rows(low, high, [&](int64_t first_row, int64_t last_row) {
-            models_[c]->add_to_rows(std::span<const Star>(stars), details, plan_.image().x0,
-                                    plan_.image().y0, plan_.image().oversampling, image_, first_row,
-                                    last_row);
             for (size_t i = 0; i < stars.size(); ++i)
                 if (far[i] > 0)
                     tables_[c]->add(stars[i], details[i].radius, far[i], image_, first_row,
@@ -348,7 +342,6 @@ template <class T> class Renderer {
     // By colour.
     std::vector<std::unique_ptr<VaryingPsf>> models_;
     std::vector<std::optional<FarTable>> tables_;
-    std::vector<std::vector<double>> field_radii_; // by group
     RenderReport report_;
 };
 

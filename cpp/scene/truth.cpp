@@ -39,7 +39,7 @@ class Measuring {
         SourceTruth truth{.bare = none, .with_ipc = none};
         const double radius = plan_.group_of(source).way.radius;
         truth.flux_in_stamp =
-            source.flux * (1 - plan_.colour(source.colour).profile.beyond(radius));
+            source.flux * (1 - plan_.colour(source.colour).profile.expected_beyond(radius));
         truth.bare = measured(image, x0, y0, truth.status);
         if (options_.kernel && truth.status == WFPSF_OK) {
             Plane<double> coupled(image.nx(), image.ny());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/ways.hpp"
 
+#include "optics/varying_psf.hpp"
 #include "scene/cost.hpp"
 #include "scene/faint_light.hpp"
 
@@ -13,6 +14,12 @@ namespace {
 
 // Errors below that share of the budget need not become smaller.
 constexpr double negligible = 0.01;
+
+// What PSFs are off and lack is no larger than that, of what they may be (tests/unit/optics).
+constexpr double of_bound = 0.3;
+
+// PSFs of one place are some share of the light off those of others near by.
+constexpr double differs = 0.1;
 
 // from, from / factor, ... down to `to`.
 std::vector<double> falling(double from, double to, double factor) {
@@ -43,12 +50,21 @@ double SceneBudget::error() const {
     return noise * std::sqrt(variance);
 }
 
-double in_noise_of_star(const SourceGroup &group, const ColourFacts &colour,
-                        const SceneBudget &budget, double psf_error) {
-    // Of the group's faintest, in the least lucky place between pixels.
-    constexpr double share = 0.25;
-    const double light = share * group.brightest * colour.profile.peak();
-    return group.densest * psf_error / std::sqrt(1 + light / budget.variance);
+double psf_error(const SourceGroup &group, const ColourFacts &colour, const SceneBudget &budget,
+                 double eps, double left_out) {
+    const double peak = colour.profile.peak();
+    // In units of a dark pixel's noise, where the group's faintest gives that share of its light.
+    const auto in_noise = [&](double error, double light) {
+        return group.densest * error / std::sqrt(1 + light * group.brightest / 2 / budget.variance);
+    };
+    const double in_core = peak / 2; // in the least lucky place between pixels
+    // A galaxy drawn as a star: half the curvature of the PSF times the mean square along an axis;
+    // the curvature of Roman's PSFs at the peak is below 4 / pixel^2 of it.
+    const double point_like = group.is_galaxy ? std::min(1.0, group.mean_square) * peak : 0;
+    const double of_psf = of_bound * eps * peak;
+    return std::max(in_noise(of_psf, in_core), group.densest * VaryingPsf::error_far_off * of_psf) +
+           in_noise(of_bound * left_out, std::min(in_core, left_out / differs)) +
+           in_noise(point_like, in_core);
 }
 
 double Ways::pixels(double radius) const {
@@ -59,12 +75,6 @@ double Ways::pixels(double radius) const {
 
 double Ways::width(double radius) const {
     return std::sqrt(pixels(radius));
-}
-
-// A galaxy drawn as a star: half the curvature of the PSF times the mean square along an axis; the
-// curvature of Roman's PSFs at the peak is below 4 / pixel^2 of it.
-double Ways::point_error() const {
-    return group_.is_galaxy ? std::min(1.0, group_.mean_square) * colour_.profile.peak() : 0;
 }
 
 double Ways::cut(double radius) const {
@@ -101,9 +111,8 @@ PixelError Ways::left_out(const Way &way) const {
                 mean(colour_.profile.beyond(FaintLight::reach), cut(FaintLight::reach))};
 }
 
-void Ways::with_and_without_far(const Way &way, double time_s, double psf_error,
-                                const Take &take) const {
-    const double of_psf = in_noise_of_star(group_, colour_, budget_, psf_error);
+void Ways::with_and_without_far(const Way &way, double time_s, const Take &take) const {
+    const double of_psf = psf_error(group_, colour_, budget_, way.eps, way.left_out);
     const double beyond = way.radius >= group_.reach ? 0 : colour_.profile.beyond(way.radius);
     if (beyond <= budget_.flux) {
         const PixelError error = left_out(way);
@@ -138,20 +147,15 @@ void Ways::with_and_without_far(const Way &way, double time_s, double psf_error,
     }
 }
 
-// Samples of fields that a stamp is a sum of. Each field is some share of the one before, and falls
-// off as the light does.
-double Ways::model_samples(double radius, double left_out) const {
-    constexpr double first = 0.08, next = 0.62; // shares
-    double samples = cost::samples(radius);
-    if (!colour_.varies)
-        return samples;
-    double reach = radius;
-    for (double share = first; share * colour_.profile.peak() > left_out; share *= next) {
-        while (reach > 0 && share * colour_.profile.brightest_beyond(reach - 1) <= left_out)
-            --reach;
-        samples += cost::samples(reach);
-    }
-    return samples;
+// PSFs differ as far out as what they differ by counts.
+double Ways::shared_stamp(double radius, double eps, double left_out) const {
+    const double stamp = cost::stamp(width(radius), radius, eps);
+    if (!colour_.varies || differs * colour_.profile.peak() <= left_out)
+        return stamp;
+    double reach = 1;
+    while (reach < radius && differs * colour_.profile.brightest_beyond(reach) > left_out)
+        ++reach;
+    return stamp + cost::correction(reach, eps);
 }
 
 void Ways::of_shared(const SharedModel &model, const Take &take) const {
@@ -159,9 +163,7 @@ void Ways::of_shared(const SharedModel &model, const Take &take) const {
     for (const double left_out : falling(colour_.varies ? 1e-2 : model.eps, model.eps / 2, 4))
         for (const double radius : radii(std::min(model.radius, group_.reach)))
             with_and_without_far({Drawing::shared, radius, model.eps, peak * left_out, 0},
-                                 count() * cost::stamp(width(radius), radius,
-                                                       model_samples(radius, peak * left_out)),
-                                 peak * (model.eps + left_out) + point_error(), take);
+                                 count() * shared_stamp(radius, model.eps, peak * left_out), take);
 }
 
 void Ways::of_own(const Take &take) const {
@@ -174,9 +176,8 @@ void Ways::of_own(const Take &take) const {
             if (radius > Way::largest_field)
                 time += cost::large_stamp(pixels(radius), radius, colour_.bandwidth);
             else
-                time += cost::stamp(width(radius), radius, 0);
-            with_and_without_far({Drawing::own, radius, eps, 0, 0}, count() * time,
-                                 colour_.profile.peak() * eps + point_error(), take);
+                time += cost::stamp(width(radius), radius, eps);
+            with_and_without_far({Drawing::own, radius, eps, 0, 0}, count() * time, take);
         }
 }
 

@@ -35,14 +35,14 @@ struct Way {
     Drawing drawing = Drawing::shared;
     double radius = 0;   // of the stamp, native pixels
     double eps = 0;      // of the PSF, of its peak; of galaxies, of a pixel as a share of the flux
-    double left_out = 0; // by modes of the shared model: largest share of the light in a pixel
+    double left_out = 0; // by the shared model: largest share of the light in a pixel
     double far = 0;      // light beyond the stamp is drawn down to that share; 0: none is
 
     // What the stamps leave out is drawn all the same, as smooth light.
     bool is_smooth_beyond() const { return drawing == Drawing::shared && far == 0; }
 
     // Own PSFs are made out to here; what is farther is drawn straight from the diffraction image.
-    static constexpr double largest_field = 256;
+    static constexpr double largest_field = 512;
     // Far light that sources share ends here.
     static constexpr double largest_table = 256;
 };
@@ -78,10 +78,10 @@ struct Offer {
 };
 using Take = std::function<void(const Offer &)>;
 
-// An error of the PSF, a share of the light in a pixel, of all that a cell of the group holds. It
-// is largest in the core, whose light has noise, and falls off no slower than that noise does.
-double in_noise_of_star(const SourceGroup &group, const ColourFacts &colour,
-                        const SceneBudget &budget, double psf_error);
+// What a group's stars are off, e- as in PixelError, by PSFs made to `eps` of their peak that lack
+// `left_out` of the light in a pixel.
+double psf_error(const SourceGroup &group, const ColourFacts &colour, const SceneBudget &budget,
+                 double eps, double left_out);
 
 class Ways {
   public:
@@ -98,14 +98,12 @@ class Ways {
     double count() const { return static_cast<double>(group_.count); }
     double pixels(double radius) const;
     double width(double radius) const;
-    double point_error() const;
-    double model_samples(double radius, double left_out) const;
+    double shared_stamp(double radius, double eps, double left_out) const;
     double cut(double radius) const;
     double mean(double light, double cut) const;
     PixelError left_out(const Way &way) const;
     // The same stamps without and with far light beyond them.
-    void with_and_without_far(const Way &way, double time_s, double psf_error,
-                              const Take &take) const;
+    void with_and_without_far(const Way &way, double time_s, const Take &take) const;
 
     const SourceGroup &group_;
     const ColourFacts &colour_;

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "optics/far_edge_fringes.hpp"
+
+#include "numerics/dispatch.hpp"
+#include "numerics/phasor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace wfpsf {
+
+EdgeFringes::EdgeFringes(const FarSource &source, const EdgeColours &colours,
+                         std::shared_ptr<const Visibility> visibility,
+                         const std::vector<Fringes> &tables)
+    : visibility_(std::move(visibility)), pixel_(source.pixel()),
+      scale_(1 / (2 * std::numbers::pi * std::numbers::pi * source.area())),
+      reach_(colours.reach()), per_across_(colours.per_across()) {
+    const double mean = 1 / source.mean_wavelength();
+    for (const Fringes &table : tables) {
+        if (!(table.end() < fringes_end))
+            continue;
+        const auto [nx, ny] = table.axes();
+        Group group{table.axes(), table.end(), reach_, std::sqrt(3 * colours.variance(-ny, nx))};
+        for (const EdgeColours::Edge &edge : colours.edges()) {
+            if (std::ranges::count(table.members(), edge.straight) == 0)
+                continue;
+            Member member{edge, colours.waves(edge)};
+            // The visibility holds a root of the wavelength that two edges do not have.
+            for (ColourWaves &wave : member.waves)
+                for (size_t m = 0; m < far_colours; ++m) {
+                    const double scale = std::pow(visibility_->wavenumbers()[m] / mean, 0.25);
+                    wave.re[m] *= scale;
+                    wave.im[m] *= scale;
+                }
+            const SpikeAxes &axes = member.edge.axes;
+            const double turned = std::abs(group.axes.across(axes.nx, axes.ny));
+            group.reach = std::max(group.reach, reach_ + turned * fringes_end);
+            for (const Member &other : group.members) {
+                if (other.edge.straight == edge.straight)
+                    continue;
+                const EdgeColours::Edge &b = other.edge;
+                const double apart = std::abs(group.axes.along(edge.x - b.x, edge.y - b.y));
+                const double aside = (edge.length + b.length) / 2 * reach_;
+                const auto most_at = [&](double r) {
+                    return scale_ * most(member.waves) * most(other.waves) *
+                           visibility_->most((apart * r - aside) * pixel_);
+                };
+                constexpr double faint = 4e-3; // as a share of the edges' own light
+                const double own = scale_ * edge.length * b.length;
+                double end = group.begin;
+                while (end < fringes_end && most_at(end) > faint * own)
+                    end *= 1.1;
+                group.pairs.push_back({static_cast<size_t>(&other - group.members.data()),
+                                       group.members.size(), std::min(end, fringes_end)});
+                group.most += most_at(group.begin);
+            }
+            group.members.push_back(std::move(member));
+        }
+        groups_.push_back(std::move(group));
+    }
+}
+
+namespace {
+
+struct PairTable {
+    const EdgeColours::Edge &a, &b;
+    const ColourWaves *waves_a, *waves_b; // one step before the position -reach
+    const ColourWaves *visibility;
+    double per_path, longest, middle;
+    double pixel, scale, reach, per_across;
+};
+
+WFPSF_VECTORISED void add_pair(const PairTable &pair, double weight, double x0, double y, size_t n,
+                               double *light) {
+    const EdgeColours::Edge &a = pair.a, &b = pair.b;
+    const double last = 2 * pair.reach * pair.per_across;
+    for (size_t i = 0; i < n; ++i) {
+        const double x = x0 + static_cast<double>(i), r2 = x * x + y * y;
+        const double across_a = a.axes.across(x, y), across_b = b.axes.across(x, y);
+        const double path = pair.pixel * ((a.x - b.x) * x + (a.y - b.y) * y);
+        const double entry = std::min(std::abs(path) * pair.per_path, pair.longest);
+        const double column_a = std::clamp((across_a + pair.reach) * pair.per_across, 0.0, last);
+        const double column_b = std::clamp((across_b + pair.reach) * pair.per_across, 0.0, last);
+        const auto cell = static_cast<int32_t>(entry);
+        const auto left_a = static_cast<int32_t>(column_a), left_b = static_cast<int32_t>(column_b);
+        const CubicWeights of_path(entry - cell), of_a(column_a - left_a), of_b(column_b - left_b);
+        const double sign = path < 0 ? -1 : 1;
+        double sum_re = 0, sum_im = 0;
+        for (size_t m = 0; m < far_colours; ++m) {
+            double v_re, v_im, a_re, a_im, b_re, b_im;
+            of_path.read(pair.visibility + cell, m, v_re, v_im);
+            of_a.read(pair.waves_a + left_a, m, a_re, a_im);
+            of_b.read(pair.waves_b + left_b, m, b_re, b_im);
+            v_im *= sign;
+            const double re = a_re * b_re + a_im * b_im, im = a_im * b_re - a_re * b_im;
+            sum_re += v_re * re - v_im * im;
+            sum_im += v_re * im + v_im * re;
+        }
+        double cosine, sine;
+        phasor(path * pair.middle, cosine, sine);
+        light[i] += weight * pair.scale * a.axes.along(x, y) * b.axes.along(x, y) / (r2 * r2) *
+                    within(across_a / pair.reach) * within(across_b / pair.reach) *
+                    (sum_re * cosine - sum_im * sine);
+    }
+}
+
+} // namespace
+
+double EdgeFringes::brightest(double r, const SpikeAxes &spike) const {
+    double sum = 0;
+    for (const Group &group : groups_)
+        if (r < fringes_end && std::abs(group.axes.across(spike.nx, spike.ny)) < same_direction)
+            sum += group.most / std::pow(std::max(r, group.begin), 2);
+    return sum;
+}
+
+void EdgeFringes::add(const PixelRow &row, double floor) const {
+    for (const Group &group : groups_) {
+        const double end = std::min(fringes_end, std::sqrt(group.most / floor));
+        for (const Run &run : runs_along(group.axes, row, group.reach, group.begin, end))
+            for (const Pair &pair : group.pairs) {
+                const Member &a = group.members[pair.first], &b = group.members[pair.second];
+                const auto near = [&](Run of, const SpikeAxes &axes) {
+                    return between(of, axes.across(row.x, row.y), -axes.ny, -reach_, reach_);
+                };
+                const Run seen = between(run, group.axes.along(row.x, row.y), group.axes.nx,
+                                         -pair.end, pair.end);
+                const Run both = near(near(seen, a.edge.axes), b.edge.axes);
+                if (both.first > both.last)
+                    continue;
+                const PixelRow part = row.part(both.first, both.last);
+                // The pixel across the spike is three samples, the outer ones of a sixth.
+                for (const int sample : {-1, 0, 1}) {
+                    const double aside = sample * group.aside;
+                    add_pair({a.edge, b.edge, a.waves.data() + 1, b.waves.data() + 1,
+                              visibility_->table(), visibility_->per_path(), visibility_->longest(),
+                              visibility_->middle(), pixel_, scale_, reach_, per_across_},
+                             sample == 0 ? 2.0 / 3 : 1.0 / 6, part.x - aside * group.axes.ny,
+                             part.y + aside * group.axes.nx, part.light.size(), part.light.data());
+                }
+            }
+    }
+}
+
+} // namespace wfpsf

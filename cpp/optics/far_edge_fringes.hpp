@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fringes between edges of about one direction beyond the tables of Fringes.
+#pragma once
+
+#include "optics/far_visibility.hpp"
+
+#include <memory>
+#include <vector>
+
+namespace wfpsf {
+
+class EdgeFringes {
+  public:
+    EdgeFringes(const FarSource &source, const EdgeColours &colours,
+                std::shared_ptr<const Visibility> visibility, const std::vector<Fringes> &tables);
+
+    // Adds fractions of the light, where they may be above the floor.
+    void add(const PixelRow &row, double floor) const;
+
+    // The most at a distance of r or more, on spikes that are close to the one given.
+    double brightest(double r, const SpikeAxes &spike) const;
+
+  private:
+    struct Member {
+        EdgeColours::Edge edge;
+        std::vector<ColourWaves> waves;
+    };
+    struct Pair {
+        size_t first, second; // members
+        double end;           // native pixels; from there on its fringes are faint
+    };
+    struct Group {
+        SpikeAxes axes;
+        double begin, reach; // native pixels, along and across
+        double aside;        // of the samples that stand for a pixel across the spike
+        double most = 0;     // from there on, times the distance's square
+        std::vector<Member> members = {};
+        std::vector<Pair> pairs = {};
+    };
+
+    std::shared_ptr<const Visibility> visibility_;
+    double pixel_, scale_, reach_, per_across_;
+    std::vector<Group> groups_;
+};
+
+} // namespace wfpsf

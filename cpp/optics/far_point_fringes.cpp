@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "optics/far_point_fringes.hpp"
+
+#include "numerics/dispatch.hpp"
+#include "numerics/phasor.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+namespace wfpsf {
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// By distance, native pixels.
+constexpr double rings_per_octave = 4;
+double ring(double nearest, size_t j) {
+    return nearest * std::exp2(static_cast<double>(j) / rings_per_octave);
+}
+
+// What is in front is behind on the star's other side.
+size_t seen_from(size_t point, size_t side, const RimPoint &) {
+    return point ^ side;
+}
+size_t seen_from(size_t point, size_t, const Corner &) {
+    return point;
+}
+
+} // namespace
+
+// ---------------------------------------------------------------------------------- making of them
+
+template <class Point>
+PointFringes<Point>::PointFringes(const FarSource &source, const EdgeColours &colours,
+                                  std::shared_ptr<const Visibility> visibility,
+                                  std::vector<Point> points, const Known &known)
+    : points_(std::move(points)), visibility_(std::move(visibility)), nearest_(source.nearest),
+      wavelength_(source.mean_wavelength()), pixel_(source.pixel()),
+      scale_(1 / (2 * pi * pi * source.area())), reach_(colours.reach()),
+      per_across_(colours.per_across()) {
+    for (size_t i = 0; i < colours.edges().size(); ++i)
+        edges_.push_back(edge(colours, i, known));
+}
+
+template <class Point>
+typename PointFringes<Point>::Edge PointFringes<Point>::edge(const EdgeColours &colours, size_t i,
+                                                             const Known &known) const {
+    constexpr double faint = 4e-3; // as a share of the edge's own light
+    Edge out{colours.edges()[i]};
+    const auto &[nx, ny] = out.edge.axes;
+    for (size_t p = 0; p < points_.size(); ++p) {
+        if (known(out.edge.straight, points_[p]))
+            continue;
+        const auto [x, y] = points_[p].position(nx, ny);
+        out.waves.push_back(colours.waves(out.edge, x, y));
+        for (const size_t side : {0, 1}) {
+            Pair pair{seen_from(p, side, points_[p]), out.waves.size() - 1, {}};
+            for (size_t j = 0; ring(nearest_, j) < fringes_end; ++j) {
+                const double r = ring(nearest_, j), here = most(out, pair, side, r);
+                const double own = scale_ / 2 * std::pow(out.edge.length / r, 2);
+                pair.most.push_back(here < faint * own ? 0 : here);
+            }
+            pair.most.push_back(0);
+            for (size_t j = pair.most.size() - 1; j-- > 0;)
+                pair.most[j] = std::max(pair.most[j], pair.most[j + 1]);
+            if (pair.most[0] > 0)
+                out.pairs[side].push_back(std::move(pair));
+        }
+    }
+    return out;
+}
+
+template <class Point>
+double PointFringes<Point>::most(const Edge &edge, const Pair &pair, size_t side, double r) const {
+    const auto &[axes, x, y, length, straight] = edge.edge;
+    const double way = side == 0 ? 1 : -1, ux = way * axes.nx, uy = way * axes.ny;
+    const Point &point = points_[pair.point];
+    const double path = std::abs(way * axes.along(x, y) - point.place(ux, uy)) * r -
+                        length * reach_; // to the spike's sides
+    return scale_ * wfpsf::most(edge.waves[pair.waves]) * point.most(ux, uy, r, reach_) *
+           visibility_->most(path * pixel_) / (r * r * std::sqrt(r * pixel_ / wavelength_));
+}
+
+// ----------------------------------------------------------------------------------------- drawing
+
+namespace {
+
+template <class Point> struct PairTable {
+    const EdgeColours::Edge &edge;
+    const ColourWaves *waves; // one step before the position -reach
+    const Point &point;
+    const ColourWaves *visibility;
+    double per_path, longest, middle;
+    double wavelength, pixel, scale, reach, per_across;
+};
+
+template <class Point>
+WFPSF_VECTORISED void add_pair(const PairTable<Point> &pair, double x0, double y, size_t n,
+                               double *light) {
+    const auto [nx, ny] = pair.edge.axes;
+    for (size_t i = 0; i < n; ++i) {
+        const double x = x0 + static_cast<double>(i);
+        const double along = nx * x + ny * y, across = nx * y - ny * x;
+        const double r2 = x * x + y * y, r = std::sqrt(r2);
+        const auto amplitude = pair.point.amplitude(x, y, r);
+        const double path =
+            pair.pixel * (pair.edge.x * x + pair.edge.y * y - pair.point.place(x, y)) -
+            amplitude.waves * pair.wavelength;
+        const double entry = std::min(std::abs(path) * pair.per_path, pair.longest);
+        const double column = (across + pair.reach) * pair.per_across;
+        const auto cell = static_cast<int32_t>(entry), left = static_cast<int32_t>(column);
+        const CubicWeights of_path(entry - cell), of_edge(column - left);
+        const double sign = path < 0 ? -1 : 1;
+        double sum_re = 0, sum_im = 0;
+        for (size_t m = 0; m < far_colours; ++m) {
+            double v_re, v_im, e_re, e_im;
+            of_path.read(pair.visibility + cell, m, v_re, v_im);
+            of_edge.read(pair.waves + left, m, e_re, e_im);
+            v_im *= sign;
+            sum_re += v_re * e_re - v_im * e_im;
+            sum_im += v_re * e_im + v_im * e_re;
+        }
+        double cosine, sine;
+        phasor(path * pair.middle, cosine, sine);
+        light[i] += pair.scale * along / (r2 * r * std::sqrt(r)) * within(across / pair.reach) *
+                    ((sum_re * cosine - sum_im * sine) * amplitude.re +
+                     (sum_re * sine + sum_im * cosine) * amplitude.im);
+    }
+}
+
+} // namespace
+
+template <class Point>
+double PointFringes<Point>::brightest(double r, const SpikeAxes &spike) const {
+    const auto at = static_cast<size_t>(std::max(0.0, rings_per_octave * std::log2(r / nearest_)));
+    double sum = 0;
+    for (const Edge &edge : edges_) {
+        if (std::abs(edge.edge.axes.across(spike.nx, spike.ny)) > same_direction)
+            continue;
+        double most = 0;
+        for (const std::vector<Pair> &pairs : edge.pairs) {
+            double all = 0;
+            for (const Pair &pair : pairs)
+                all += pair.most[std::min(at, pair.most.size() - 1)];
+            most = std::max(most, all);
+        }
+        sum += most;
+    }
+    return sum;
+}
+
+template <class Point> void PointFringes<Point>::add(const PixelRow &row, double floor) const {
+    const auto end = [&](const Pair &pair) {
+        const auto faint = std::ranges::find_if(pair.most, [&](double m) { return m <= floor; });
+        return std::min(fringes_end,
+                        ring(nearest_, static_cast<size_t>(faint - pair.most.begin())));
+    };
+    for (const Edge &edge : edges_) {
+        const SpikeAxes &axes = edge.edge.axes;
+        for (const Run &run : runs_along(axes, row, reach_, nearest_, fringes_end)) {
+            const auto middle = static_cast<double>(run.first + run.last) / 2;
+            const bool behind = axes.along(row.x + middle, row.y) < 0;
+            for (const Pair &pair : edge.pairs[behind ? 1 : 0]) {
+                const Run lit =
+                    between(run, axes.along(row.x, row.y), axes.nx, -end(pair), end(pair));
+                if (lit.first > lit.last)
+                    continue;
+                const PixelRow part = row.part(lit.first, lit.last);
+                add_pair<Point>({edge.edge, edge.waves[pair.waves].data() + 1, points_[pair.point],
+                                 visibility_->table(), visibility_->per_path(),
+                                 visibility_->longest(), visibility_->middle(), wavelength_, pixel_,
+                                 scale_ / std::sqrt(pixel_ / wavelength_), reach_, per_across_},
+                                part.x, part.y, part.light.size(), part.light.data());
+            }
+        }
+    }
+}
+
+template class PointFringes<RimPoint>;
+template class PointFringes<Corner>;
+
+} // namespace wfpsf

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fringes between a spike and other light: of a straight edge with points that send light its way,
+// which are rims' or corners.
+#pragma once
+
+#include "optics/far_corners.hpp"
+#include "optics/far_rims.hpp"
+#include "optics/far_visibility.hpp"
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <vector>
+
+namespace wfpsf {
+
+// A RimPoint or Corner.
+template <class Point> class PointFringes {
+  public:
+    // `known`: pairs of an edge and a point that are in other tables.
+    using Known = std::function<bool(size_t edge, const Point &point)>;
+    PointFringes(const FarSource &source, const EdgeColours &colours,
+                 std::shared_ptr<const Visibility> visibility, std::vector<Point> points,
+                 const Known &known);
+
+    // Adds fractions of the light, where they may be above the floor.
+    void add(const PixelRow &row, double floor) const;
+
+    // The most at a distance of r or more, on edges' spikes that are close to the one given.
+    double brightest(double r, const SpikeAxes &spike) const;
+
+  private:
+    // With the light of a point.
+    struct Pair {
+        size_t point;
+        size_t waves;             // of the edge: which
+        std::vector<double> most; // from each ring on
+    };
+    struct Edge {
+        EdgeColours::Edge edge;
+        std::vector<std::vector<ColourWaves>> waves = {};
+        std::array<std::vector<Pair>, 2> pairs = {}; // on either side of the star
+    };
+    Edge edge(const EdgeColours &colours, size_t i, const Known &known) const;
+    double most(const Edge &edge, const Pair &pair, size_t side, double r) const;
+
+    std::vector<Point> points_;
+    std::shared_ptr<const Visibility> visibility_;
+    double nearest_, wavelength_, pixel_, scale_, reach_, per_across_;
+    std::vector<Edge> edges_;
+};
+
+} // namespace wfpsf

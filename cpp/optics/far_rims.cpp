@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "optics/far_rims.hpp"
+
+#include "optics/fresnel.hpp"
+
+#include <numbers>
+
+namespace wfpsf {
+
+namespace {
+
+using Complex = std::complex<double>;
+constexpr double pi = std::numbers::pi;
+
+// Part of an oval.
+struct Arc {
+    double begin, end, outwards; // +1: the dark is outside
+    bool closed;
+    bool smooth_begin = false, smooth_end = false; // a straight edge goes on, with that end's light
+};
+
+struct Rim {
+    Oval oval;
+    std::vector<Arc> arcs;
+};
+
+std::vector<Rim> rims(const PupilEdges &edges) {
+    std::vector<Rim> out;
+    const std::vector<Junction> joined = junctions(edges);
+    for (size_t c = 0; c < edges.curved.size(); ++c) {
+        const CurvedEdge &edge = edges.curved[c];
+        Arc arc{edge.begin, edge.end, edge.lit_inside ? 1.0 : -1.0, edge.closed()};
+        for (const Junction &junction : joined)
+            if (junction.curved == c && junction.kink < smooth_kink)
+                (junction.at_begin ? arc.smooth_begin : arc.smooth_end) = true;
+        auto rim = std::ranges::find_if(out, [&](const Rim &r) { return r.oval == edge.oval; });
+        if (rim == out.end())
+            rim = out.insert(out.end(), {edge.oval, {}});
+        rim->arcs.push_back(arc);
+    }
+    return out;
+}
+
+// An oval's point and what it sends along its normal: all per unit of k, and corrections by the
+// wavefront.
+struct Stationary {
+    double angle;
+    double speed;     // metres a radian
+    double bend;      // second derivative of k.u by the oval's angle, over k
+    double waves = 0; // wavefront
+    double slope = 0, w_slope = 0, w_bend = 0; // W along the direction, dW/da, d2W/da2
+};
+
+Stationary stationary(const Oval &o, const Wavefront &w, double ux, double uy, double side) {
+    const double a = ux * o.half_width + uy * o.shear, b = uy * o.half_height;
+    const double angle = std::atan2(side * b, side * a), u = std::cos(angle), v = std::sin(angle);
+    const double x = o.x + o.half_width * u, y = o.y + o.shear * u + o.half_height * v;
+    const double dx = -o.half_width * v, dy = o.half_height * u - o.shear * v;
+    constexpr double h = 5e-3, turn = 1e-2;
+    const double here = w(x, y);
+    const double before = w(x - turn * dx, y - turn * dy), after = w(x + turn * dx, y + turn * dy);
+    return {.angle = angle,
+            .speed = std::hypot(dx, dy),
+            .bend = -side * std::hypot(a, b),
+            .waves = here,
+            .slope = (w(x + h * ux, y + h * uy) - here) / h,
+            .w_slope = (after - before) / (2 * turn),
+            .w_bend = (after - 2 * here + before) / (turn * turn)};
+}
+
+// Fresnel's integral from 0 without the waves that come from x itself when it is far off: those are
+// a corner's light.
+constexpr Complex far_off{0.5, 0.5};
+Complex fresnel_nearby(double x) {
+    const double a = std::abs(x), share = 1 - corner_share(a);
+    const Complex value = share > 0 ? far_off + share * (fresnel(a) - far_off) : far_off;
+    return x < 0 ? -value : value;
+}
+
+// The part of the point's light that an arc has, by Fresnel's integral.
+Complex seen(const Arc &arc, double angle, double per_radian) {
+    if (arc.closed)
+        return {1, 1};
+    // Of the arc's middle, to find the turn.
+    const double middle = (arc.begin + arc.end) / 2;
+    const double off = std::remainder(angle - middle, 2 * pi);
+    const double begin = (arc.begin - middle - off) * per_radian;
+    const double end = (arc.end - middle - off) * per_radian;
+    if ((arc.smooth_begin && begin > 0) || (arc.smooth_end && end < 0))
+        return 0;
+    return (arc.smooth_end ? far_off : fresnel_nearby(end)) -
+           (arc.smooth_begin ? -far_off : fresnel_nearby(begin));
+}
+
+// The amplitude over exp(2 pi i (k place + waves)), times k^(3/2) 2 pi i.
+Complex amplitude(const Rim &rim, const Stationary &at, double side, double k) {
+    const double bend = k * at.bend + at.w_bend;
+    const double per_radian = std::sqrt(2 * std::abs(bend));
+    Complex part = 0;
+    for (const Arc &arc : rim.arcs)
+        part += arc.outwards * seen(arc, at.angle - at.w_slope / bend, per_radian);
+    if (bend < 0)
+        part = std::conj(part);
+    return part * (side * at.speed * std::sqrt(k) / (per_radian * (1 + at.slope / k)));
+}
+
+bool lit(const Rim &rim, double angle) {
+    constexpr double beyond = 1.2; // radians
+    return std::ranges::any_of(rim.arcs, [&](const Arc &arc) {
+        const double off = std::remainder(angle - (arc.begin + arc.end) / 2, 2 * pi);
+        return arc.closed || std::abs(off) < (arc.end - arc.begin) / 2 + beyond;
+    });
+}
+
+} // namespace
+
+RimTable::Vector RimTable::direction(int i) {
+    const double angle = 4.0 * i / directions, quarter = std::floor(angle), p = angle - quarter;
+    const double norm = std::hypot(1 - p, p), x = (1 - p) / norm, y = p / norm;
+    switch (static_cast<int>(quarter) & 3) {
+    case 0:
+        return {x, y};
+    case 1:
+        return {-y, x};
+    case 2:
+        return {-x, -y};
+    default:
+        return {y, -x};
+    }
+}
+
+void RimTable::close(std::vector<double> &table) {
+    for (int i = 0; i < directions; ++i)
+        table[entry(i, 0)] = table[entry(i, 1)];
+    std::copy_n(table.begin(), columns, table.end() - columns);
+}
+
+RimTable::Vector RimPoint::position(double ux, double uy) const {
+    const double a = ux * oval.half_width + uy * oval.shear, b = uy * oval.half_height;
+    const double norm = side / std::hypot(a, b);
+    return {oval.x + oval.half_width * a * norm,
+            oval.y + (oval.shear * a + oval.half_height * b) * norm};
+}
+
+double RimPoint::most(double ux, double uy, double r, double reach) const {
+    const auto at = RimTable::place(ux, uy, nearest / r);
+    const auto width = static_cast<int>(reach / r * RimTable::directions / 4) + 1;
+    double most = 0;
+    for (int i = -width; i <= width + 1; ++i)
+        for (const int j : {at.column, at.column + 1}) {
+            const int row = (at.row + i + RimTable::directions) % RimTable::directions;
+            const size_t entry = RimTable::entry(row, j);
+            most = std::max(most, std::hypot(re[entry], im[entry]));
+        }
+    return most;
+}
+
+std::vector<RimPoint> rim_points(const FarSource &source, const PupilEdges &edges) {
+    std::vector<RimPoint> points;
+    const double wavelength = source.mean_wavelength();
+    const Wavefront w = source.wavefront(wavelength);
+    for (const Rim &rim : rims(edges))
+        for (const double side : {1.0, -1.0}) {
+            RimPoint point{rim.oval,
+                           side,
+                           source.nearest,
+                           std::vector<double>(RimTable::size),
+                           std::vector<double>(RimTable::size),
+                           std::vector<double>(RimTable::directions + 1)};
+            for (int i = 0; i < RimTable::directions; ++i) {
+                const auto [ux, uy] = RimTable::direction(i);
+                const Oval &o = rim.oval;
+                const double a = ux * o.half_width + uy * o.shear, b = uy * o.half_height;
+                if (!lit(rim, std::atan2(side * b, side * a)))
+                    continue;
+                const Stationary at = stationary(rim.oval, w, ux, uy, side);
+                point.waves[static_cast<size_t>(i)] = at.waves;
+                for (int j = 1; j <= RimTable::distances; ++j) {
+                    const double r = RimTable::distance(j, source.nearest);
+                    const Complex value = amplitude(rim, at, side, r * source.pixel() / wavelength);
+                    point.re[RimTable::entry(i, j)] = value.real();
+                    point.im[RimTable::entry(i, j)] = value.imag();
+                }
+            }
+            RimTable::close(point.re);
+            RimTable::close(point.im);
+            point.waves.back() = point.waves.front();
+            points.push_back(std::move(point));
+        }
+    return points;
+}
+
+} // namespace wfpsf

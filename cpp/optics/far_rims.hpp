@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The curved edges of a pupil seen from far off the core: each oval that they lie on sends light
+// from the two points where its normal points along the direction, by the method of stationary
+// phase, with Fresnel's integrals where the edges end.
+#pragma once
+
+#include "optics/far_spikes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace wfpsf {
+
+// Angles about a circle: 0..4 along a square that stands on its corner, quick to find.
+[[gnu::always_inline]] inline double diamond(double x, double y) {
+    const double p = y / (std::abs(x) + std::abs(y));
+    return x < 0 ? 2 - p : y < 0 ? 4 + p : p;
+}
+
+// Where a table by direction and by sqrt(nearest / r) is read.
+struct RimTable {
+    static constexpr int directions = 1440, distances = 24;
+    static constexpr ptrdiff_t columns = distances + 1;
+    static constexpr size_t size = static_cast<size_t>(directions + 1) * columns;
+
+    struct Vector {
+        double x, y;
+    };
+    static Vector direction(int i); // of length one
+    static double distance(int j, double nearest) {
+        return nearest * std::pow(static_cast<double>(distances) / j, 2);
+    }
+    static size_t entry(int i, int j) { return static_cast<size_t>(i * columns + j); }
+    // The direction and distance that bound the first row and column alike.
+    static void close(std::vector<double> &table);
+
+    struct Place {
+        int32_t row, column;
+        double s, t; // from there to the next ones
+        [[gnu::always_inline]] double of(const double *table) const {
+            const double *entry = table + row * columns + column;
+            const double low = entry[0] + t * (entry[1] - entry[0]);
+            entry += columns;
+            const double high = entry[0] + t * (entry[1] - entry[0]);
+            return low + s * (high - low);
+        }
+    };
+    [[gnu::always_inline]] static Place place(double x, double y, double nearest_over_r) {
+        const double row = std::min(diamond(x, y) * (directions / 4.0), directions - 1e-6);
+        const double column = std::min(std::sqrt(nearest_over_r) * distances, distances - 1e-6);
+        const auto j = static_cast<int32_t>(row), c = static_cast<int32_t>(column);
+        return {j, c, row - j, column - c};
+    }
+};
+
+// How much of what Fresnel's integral has from where an edge ends, x from the point, is a corner's
+// light by itself.
+[[gnu::always_inline]] inline double corner_share(double x) {
+    constexpr double none = 2, whole = 5;
+    const double s = std::clamp((x - none) / (whole - none), 0.0, 1.0);
+    return s * s * (3 - 2 * s);
+}
+
+// One of an oval's two points, in front (towards the direction) or behind. Its amplitude is
+// exp(2 pi i (k place + waves)) / k^(3/2) times the table's, the light per unit of solid angle that
+// squared over (2 pi)^2; k = r / wavelength, in cycles per metre.
+struct RimPoint {
+    Oval oval;
+    double side;                // +1: in front, -1: behind
+    double nearest;             // native pixels, of the tables
+    std::vector<double> re, im; // by direction and distance
+    std::vector<double> waves;  // wavefront there by direction, at the mean wavelength
+
+    RimTable::Vector position(double ux, double uy) const; // m
+    // Along (x, y), times its length.
+    [[gnu::always_inline]] double place(double x, double y) const {
+        const double a = oval.half_width * x + oval.shear * y, b = oval.half_height * y;
+        return oval.x * x + oval.y * y + side * std::sqrt(a * a + b * b);
+    }
+    // In the direction of (x, y), which are native pixels, r long.
+    struct Amplitude {
+        double re, im, waves;
+    };
+    [[gnu::always_inline]] Amplitude amplitude(double x, double y, double r) const {
+        const auto at = RimTable::place(x, y, nearest / r);
+        const double *wave = waves.data() + at.row;
+        return {at.of(re.data()), at.of(im.data()), wave[0] + at.s * (wave[1] - wave[0])};
+    }
+    // Of all amplitudes at the distance r, up to `reach` aside from the direction.
+    double most(double ux, double uy, double r, double reach) const;
+};
+
+// In pairs, the one in front first.
+std::vector<RimPoint> rim_points(const FarSource &source, const PupilEdges &edges);
+
+// Radians that an edge may turn by where a curved one goes on from it.
+inline constexpr double smooth_kink = 0.01;
+
+} // namespace wfpsf

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fringes between distant parts of a pupil. They fade with the path between the two as the
+// spectrum's visibility does, which the sharp ends of a band make last over many fringes.
+#pragma once
+
+#include "optics/far_spikes.hpp"
+#include "optics/pupil_edges.hpp"
+
+#include <array>
+#include <vector>
+
+namespace wfpsf {
+
+// What goes with the colour beside the path is a polynomial in 1 / wavelength through its values at
+// a few of them: this many complex numbers.
+inline constexpr size_t far_colours = 8;
+struct ColourWaves {
+    std::array<double, far_colours> re, im;
+};
+
+// Weights of Lagrange's cubic through the samples -1, 0, 1, 2 at 0 <= s < 1.
+struct CubicWeights {
+    double w[4];
+    [[gnu::always_inline]] explicit CubicWeights(double s) {
+        const double a = s + 1, b = s - 1, c = s - 2;
+        w[0] = -s * b * c / 6;
+        w[1] = a * b * c / 2;
+        w[2] = -a * s * c / 2;
+        w[3] = a * s * b / 6;
+    }
+    // From the sample -1 on.
+    [[gnu::always_inline]] void read(const ColourWaves *wave, size_t colour, double &re,
+                                     double &im) const {
+        re = w[0] * wave[0].re[colour];
+        im = w[0] * wave[0].im[colour];
+        for (int k = 1; k < 4; ++k) {
+            re += w[k] * wave[k].re[colour];
+            im += w[k] * wave[k].im[colour];
+        }
+    }
+};
+
+// By a path difference and colour: the integral, over a spectrum that is one there and zero at the
+// other colours, of sqrt(wavelength / mean) exp(2 pi i path / wavelength).
+class Visibility {
+  public:
+    Visibility(const FarSource &source, double longest);
+
+    const std::array<double, far_colours> &wavenumbers() const { return wavenumber_; }
+    double middle() const { return middle_; } // wavenumber of the wave that the table leaves out
+    double per_path() const { return per_path_; }
+    double longest() const { return static_cast<double>(table_.size()) - 4.001; } // entries
+    const ColourWaves *table() const { return table_.data(); } // from one entry before no path
+    // The sum over colours; no longer path has more.
+    double most(double path) const;
+
+  private:
+    double middle_, per_path_;
+    std::array<double, far_colours> wavenumber_;
+    std::vector<ColourWaves> table_;
+    std::vector<double> most_;
+};
+
+// The integrals along straight edges, see far_spikes.hpp, by colour and position across. Edges are
+// cut where the colours would not be enough for what differs between the band's ends.
+class EdgeColours {
+  public:
+    struct Edge {
+        SpikeAxes axes;
+        double x, y, length; // middle, m
+        size_t straight;     // that it is part of
+    };
+
+    // `reach`: across, native pixels.
+    EdgeColours(const FarSource &source, const PupilEdges &edges, const Visibility &visibility,
+                double reach);
+
+    const std::vector<Edge> &edges() const { return edges_; }
+    double reach() const { return reach_; } // across, native pixels
+    double per_across() const { return per_across_; }
+
+    // From two steps before -reach on; times the pixel's and the blur's response to fringes with
+    // light from (x, y).
+    std::vector<ColourWaves> waves(const Edge &edge) const;
+    std::vector<ColourWaves> waves(const Edge &edge, double x, double y) const;
+    // Of the pixel and the blur in a direction of length one, native pixels squared.
+    double variance(double ux, double uy) const;
+
+  private:
+    double response(double x, double y, double wavenumber) const;
+    template <class Response>
+    std::vector<ColourWaves> integral(const Edge &edge, const Response &response_to) const;
+
+    const FarSource &source_;
+    std::array<double, far_colours> wavenumber_;
+    std::vector<Edge> edges_;
+    double per_across_, reach_ = 0;
+};
+
+// The largest of all.
+double most(const std::vector<ColourWaves> &waves);
+
+} // namespace wfpsf

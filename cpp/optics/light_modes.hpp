@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fields that the light of a star is a sum of, and how far from it each of them matters.
+#pragma once
+
+#include "image/view.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace wfpsf {
+
+// A field that counts T_i(u) T_j(v) times at place (u, v): about the star, in a plane with as many
+// samples on either side of it.
+struct LightMode {
+    int i, j;
+    Plane<double> light;
+    // The largest absolute value 0, 1, 2, ... native pixels from the star along an axis, or farther.
+    std::vector<double> brightest;
+
+    void find_brightest(int64_t per_pixel);
+    double largest() const { return brightest[0]; }
+};
+
+// What sums of modes lack that are cut short, if each counts so many times at most. All modes have
+// as many rings.
+class LeftOut {
+  public:
+    LeftOut() = default;
+    LeftOut(std::span<const LightMode> modes, std::span<const double> weights);
+
+    // All modes but the first `count`, in any pixel.
+    double but_for(size_t count) const { return beyond_[0][count]; }
+    // By mode the radius, native pixels, beyond which it may be left out of a stamp of that radius,
+    // so that no pixel lacks more than `most`; modes that may be left out altogether are not
+    // listed.
+    std::vector<double> radii(double radius, double most) const;
+
+  private:
+    std::vector<std::vector<double>> beyond_; // [r][n]: r native pixels, after n modes
+};
+
+// How far from a field's middle stamps of a radius, native pixels, take samples.
+inline int64_t samples_within(double radius, int64_t per_pixel, int64_t filter) {
+    return static_cast<int64_t>(std::ceil(radius * static_cast<double>(per_pixel))) + filter;
+}
+
+// Adds weight times those of `light` within `half` samples of its middle to `sum`, whose middle is
+// the same place.
+void add_within(double weight, const Plane<double> &light, int64_t half, Plane<double> &sum);
+
+} // namespace wfpsf
