@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes what bench measured into docs/report.md, between its marks, and draws its curves.
+"""Writes what bench measured into the pages, between their marks, and draws the report's curves.
 
 usage: docs/speed.py BENCH.json [PART.json ...]    (needs Matplotlib: Debian's python3-matplotlib)
 
@@ -15,7 +15,7 @@ import sys
 import speed_curves
 
 FOLDER = pathlib.Path(__file__).parent
-PAGE = FOLDER / "report.md"
+MARKED = re.compile(r"(<!-- ([^>]+): by docs/speed.py -->\n).*?(<!-- end -->)", re.DOTALL)
 
 # Each case belongs to the first area whose pattern is in its name.
 AREAS = [
@@ -164,30 +164,31 @@ def row(cells):
     return f"| {' | '.join(cells)} |"
 
 
-def tables(cases):
-    for title, _ in AREAS:
-        own = [case for case in cases if area_of(case) == title]
-        if not own:
-            continue
-        kinds = {case["error_kind"] for case in own if case["error"] is not None}
-        yield from ("", f"### {title}", "")
-        if len(kinds) == 1:
-            yield from (f"Errors: {kinds.pop()}.", "")
-        columns = {
-            "Case": lambda case: case["case"],
-            "Time": lambda case: duration(case["time_s"]),
-            "Target": lambda case: duration(case["target_time_s"] or 0),
-            "Error": lambda case: number(case["error"]),
-            "Asked": lambda case: number(case["target_error"]),
-            "Error of what": lambda case: case["error_kind"] if number(case["error"]) else "",
-            "Peak memory": lambda case: f"{case['memory_bytes'] / 2**20:.0f} MiB",
-            "Against": lambda case: f"{two_digits(case['ratio'])} × {case['baseline']['name']}"
-            if case["baseline"] else ""}
-        if not kinds:
-            del columns["Error of what"]
-        yield row(columns)
-        yield row("---" for _ in columns)
-        yield from (row(cell(case) for cell in columns.values()) for case in own)
+def table(cases):
+    kinds = {case["error_kind"] for case in cases if case["error"] is not None}
+    if len(kinds) == 1:
+        yield from (f"Errors: {kinds.pop()}.", "")
+    columns = {
+        "Case": lambda case: case["case"],
+        "Time": lambda case: duration(case["time_s"]),
+        "Target": lambda case: duration(case["target_time_s"] or 0),
+        "Error": lambda case: number(case["error"]),
+        "Asked": lambda case: number(case["target_error"]),
+        "Error of what": lambda case: case["error_kind"] if number(case["error"]) else "",
+        "Peak memory": lambda case: f"{case['memory_bytes'] / 2**20:.0f} MiB",
+        "Against": lambda case: f"{two_digits(case['ratio'])} × {case['baseline']['name']}"
+        if case["baseline"] else ""}
+    if not kinds:
+        del columns["Error of what"]
+    yield row(columns)
+    yield row("---" for _ in columns)
+    yield from (row(cell(case) for cell in columns.values()) for case in cases)
+
+
+def all_tables(areas):
+    for title, cases in areas.items():
+        if cases:
+            yield from ("", f"### {title}", "", *table(cases))
 
 
 def run(head):
@@ -259,15 +260,15 @@ def peers(cases):
                        two_digits(seconds / case["time_s"])])
 
 
-def filled(text, blocks):
-    """The page with the blocks between its marks made anew."""
-    for name, lines in blocks.items():
-        marked = re.compile(rf"(<!-- {name}: by docs/speed.py -->\n).*?(<!-- end -->)", re.DOTALL)
-        if not marked.search(text):
-            sys.exit(f"{PAGE}: no marks of {name}")
-        body = "\n".join(lines).strip("\n")
-        text = marked.sub(lambda marks: f"{marks[1]}\n{body}\n\n{marks[2]}", text)
-    return text
+def filled(page, blocks):
+    """The page with what stands between its marks made anew."""
+    def made_anew(marks):
+        if marks[2] not in blocks:
+            sys.exit(f"{page}: no such mark: {marks[2]}")
+        body = "\n".join(blocks[marks[2]]).strip("\n")
+        return f"{marks[1]}\n{body}\n\n{marks[3]}"
+
+    return MARKED.sub(made_anew, page.read_text())
 
 
 def main():
@@ -277,9 +278,14 @@ def main():
     for name in [*(path[1] for path in PATHS), *(peer[-1] for peer in PEERS), *dict(LOSSES)]:
         if not named(cases, name):
             print(f"no such case, its rows are left out: {name}", file=sys.stderr)
-    blocks = {"run": run(head), "losses": losses(cases), "missed": missed(cases), "rooflines": rooflines(cases),
-              "peers": peers(cases), "tables": tables(cases)}
-    PAGE.write_text(filled(PAGE.read_text(), blocks))
+    areas = {title: [case for case in cases if area_of(case) == title] for title, _ in AREAS}
+    blocks = {"run": run(head), "losses": losses(cases), "missed": missed(cases),
+              "rooflines": rooflines(cases), "peers": peers(cases), "tables": all_tables(areas)}
+    # The table of an area may stand on other pages too.
+    blocks |= {title: table(own) for title, own in areas.items()}
+    blocks = {name: list(lines) for name, lines in blocks.items()}
+    for page in FOLDER.glob("*.md"):
+        page.write_text(filled(page, blocks))
     speed_curves.draw(cases, FOLDER / "pictures/speed.svg")
 
 
