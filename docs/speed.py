@@ -164,25 +164,28 @@ def row(cells):
     return f"| {' | '.join(cells)} |"
 
 
+def cells(case, with_kind):
+    peer = case["baseline"]
+    return {
+        "Case": case["case"],
+        "Time": duration(case["time_s"]),
+        "Target": duration(case["target_time_s"] or 0),
+        "Error": number(case["error"]),
+        "Asked": number(case["target_error"]),
+        "Error of what": case["error_kind"] if with_kind and number(case["error"]) else "",
+        "Peak memory": f"{case['memory_bytes'] / 2**20:.0f} MiB",
+        "Against": f"{two_digits(case['ratio'])} × {peer['name']}" if peer else ""}
+
+
 def table(cases):
     kinds = {case["error_kind"] for case in cases if case["error"] is not None}
     if len(kinds) == 1:
         yield from (f"Errors: {kinds.pop()}.", "")
-    columns = {
-        "Case": lambda case: case["case"],
-        "Time": lambda case: duration(case["time_s"]),
-        "Target": lambda case: duration(case["target_time_s"] or 0),
-        "Error": lambda case: number(case["error"]),
-        "Asked": lambda case: number(case["target_error"]),
-        "Error of what": lambda case: case["error_kind"] if number(case["error"]) else "",
-        "Peak memory": lambda case: f"{case['memory_bytes'] / 2**20:.0f} MiB",
-        "Against": lambda case: f"{two_digits(case['ratio'])} × {case['baseline']['name']}"
-        if case["baseline"] else ""}
-    if not kinds:
-        del columns["Error of what"]
+    rows = [cells(case, bool(kinds)) for case in cases]
+    columns = [title for title in cells(cases[0], True) if any(own[title] for own in rows)]
     yield row(columns)
     yield row("---" for _ in columns)
-    yield from (row(cell(case) for cell in columns.values()) for case in cases)
+    yield from (row(own[title] for title in columns) for own in rows)
 
 
 def all_tables(areas):
@@ -282,7 +285,7 @@ def main():
     blocks = {"run": run(head), "losses": losses(cases), "missed": missed(cases),
               "rooflines": rooflines(cases), "peers": peers(cases), "tables": all_tables(areas)}
     # The table of an area may stand on other pages too.
-    blocks |= {title: table(own) for title, own in areas.items()}
+    blocks |= {title: table(own) if own else [] for title, own in areas.items()}
     blocks = {name: list(lines) for name, lines in blocks.items()}
     for page in FOLDER.glob("*.md"):
         page.write_text(filled(page, blocks))
