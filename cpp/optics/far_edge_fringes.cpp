@@ -10,6 +10,19 @@
 
 namespace wfpsf {
 
+namespace {
+
+// Rings by distance, native pixels.
+constexpr double rings_per_octave = 4;
+double ring(size_t j) {
+    return std::exp2(static_cast<double>(j) / rings_per_octave);
+}
+size_t ring_of(double r) {
+    return static_cast<size_t>(rings_per_octave * std::log2(r));
+}
+
+} // namespace
+
 EdgeFringes::EdgeFringes(const FarSource &source, const EdgeColours &colours,
                          std::shared_ptr<const Visibility> visibility,
                          const std::vector<Fringes> &tables)
@@ -33,32 +46,57 @@ EdgeFringes::EdgeFringes(const FarSource &source, const EdgeColours &colours,
                     wave.re[m] *= scale;
                     wave.im[m] *= scale;
                 }
-            const SpikeAxes &axes = member.edge.axes;
-            const double turned = std::abs(group.axes.across(axes.nx, axes.ny));
+            const double turned = std::abs(group.axes.across(edge.axes.nx, edge.axes.ny));
             group.reach = std::max(group.reach, reach_ + turned * fringes_end);
             for (const Member &other : group.members) {
                 if (other.edge.straight == edge.straight)
                     continue;
+                constexpr double faint = 4e-3; // as a share of the edges' own light
                 const EdgeColours::Edge &b = other.edge;
                 const double apart = std::abs(group.axes.along(edge.x - b.x, edge.y - b.y));
-                const double aside = (edge.length + b.length) / 2 * reach_;
-                const auto most_at = [&](double r) {
-                    return scale_ * most(member.waves) * most(other.waves) *
-                           visibility_->most((apart * r - aside) * pixel_);
-                };
-                constexpr double faint = 4e-3; // as a share of the edges' own light
-                const double own = scale_ * edge.length * b.length;
                 double end = group.begin;
-                while (end < fringes_end && most_at(end) > faint * own)
+                while (end < fringes_end && visibility_->most(apart * end * pixel_) > faint)
                     end *= 1.1;
                 group.pairs.push_back({static_cast<size_t>(&other - group.members.data()),
                                        group.members.size(), std::min(end, fringes_end)});
-                group.most += most_at(group.begin);
             }
             group.members.push_back(std::move(member));
         }
+        for (size_t j = 0; ring(j) < fringes_end; ++j)
+            group.most.push_back(most(group, std::max(group.begin, ring(j))));
+        group.most.push_back(0);
+        for (size_t j = group.most.size() - 1; j-- > 0;)
+            group.most[j] = std::max(group.most[j], group.most[j + 1]);
         groups_.push_back(std::move(group));
     }
+}
+
+// Without regard to phases.
+double EdgeFringes::most(const Group &group, double r) const {
+    const auto amplitude = [&](const Member &member, double across) {
+        const auto at = static_cast<size_t>(std::lround((across + reach_) * per_across_)) + 2;
+        return within(across / reach_) * wfpsf::most({&member.waves[at], 1});
+    };
+    double most = 0;
+    for (const double side : {-1.0, 1.0})
+        for (int i = 0; i <= static_cast<int>(4 * group.reach); ++i) { // half pixels
+            const double aside = i / 2.0 - group.reach;
+            const double x = side * group.axes.nx * r - group.axes.ny * aside;
+            const double y = side * group.axes.ny * r + group.axes.nx * aside;
+            double sum = 0;
+            for (const Pair &pair : group.pairs) {
+                const Member &a = group.members[pair.first], &b = group.members[pair.second];
+                const double at_a = a.edge.axes.across(x, y), at_b = b.edge.axes.across(x, y);
+                if (r > pair.end || std::max(std::abs(at_a), std::abs(at_b)) > reach_)
+                    continue;
+                const double path =
+                    std::abs((a.edge.x - b.edge.x) * x + (a.edge.y - b.edge.y) * y) -
+                    (a.edge.length * std::abs(at_a) + b.edge.length * std::abs(at_b)) / 2;
+                sum += amplitude(a, at_a) * amplitude(b, at_b) * visibility_->most(path * pixel_);
+            }
+            most = std::max(most, sum);
+        }
+    return scale_ * most / (r * r);
 }
 
 namespace {
@@ -110,14 +148,16 @@ WFPSF_VECTORISED void add_pair(const PairTable &pair, double weight, double x0, 
 double EdgeFringes::brightest(double r, const SpikeAxes &spike) const {
     double sum = 0;
     for (const Group &group : groups_)
-        if (r < fringes_end && std::abs(group.axes.across(spike.nx, spike.ny)) < same_direction)
-            sum += group.most / std::pow(std::max(r, group.begin), 2);
+        if (std::abs(group.axes.across(spike.nx, spike.ny)) < same_direction)
+            sum += group.most[std::min(ring_of(r), group.most.size() - 1)];
     return sum;
 }
 
 void EdgeFringes::add(const PixelRow &row, double floor) const {
     for (const Group &group : groups_) {
-        const double end = std::min(fringes_end, std::sqrt(group.most / floor));
+        const auto faint = std::ranges::find_if(group.most, [&](double m) { return m <= floor; });
+        const double end =
+            std::min(fringes_end, ring(static_cast<size_t>(faint - group.most.begin())));
         for (const Run &run : runs_along(group.axes, row, group.reach, group.begin, end))
             for (const Pair &pair : group.pairs) {
                 const Member &a = group.members[pair.first], &b = group.members[pair.second];

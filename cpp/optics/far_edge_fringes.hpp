@@ -33,10 +33,11 @@ class EdgeFringes {
         SpikeAxes axes;
         double begin, reach; // native pixels, along and across
         double aside;        // of the samples that stand for a pixel across the spike
-        double most = 0;     // from there on, times the distance's square
         std::vector<Member> members = {};
         std::vector<Pair> pairs = {};
+        std::vector<double> most = {}; // from each ring on
     };
+    double most(const Group &group, double r) const;
 
     std::shared_ptr<const Visibility> visibility_;
     double pixel_, scale_, reach_, per_across_;

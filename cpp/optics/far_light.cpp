@@ -42,10 +42,11 @@ struct FarLight::Parts {
         : rims(rim_points(source, edges)),
           visibility(std::make_shared<Visibility>(source, 1.1 * source.optics.aperture->diameter() *
                                                               fringes_end * source.pixel())),
-          narrow(source, edges, *visibility, 9), wide(source, edges, *visibility, 18) {}
+          narrow(source, edges, *visibility, 6), middle(source, edges, *visibility, 9),
+          wide(source, edges, *visibility, 18) {}
     std::vector<RimPoint> rims;
     std::shared_ptr<const Visibility> visibility;
-    EdgeColours narrow, wide;
+    EdgeColours narrow, middle, wide; // tables across
 };
 
 namespace {
@@ -92,7 +93,7 @@ FarLight::FarLight(const FarSource &source, const PupilEdges &edges, Parts parts
     : nearest_(source.nearest), mirror_(source.settings.mirrored ? -1 : 1),
       spikes_(make_spikes(source, edges)), halo_(source, edges, parts.rims),
       edge_fringes_(source, parts.wide, parts.visibility, spikes_.fringes),
-      rim_fringes_(source, parts.narrow, parts.visibility, std::move(parts.rims),
+      rim_fringes_(source, parts.middle, parts.visibility, std::move(parts.rims),
                    known_rims(edges, spikes_.fringes)),
       corner_fringes_(source, parts.narrow, parts.visibility, corners(source, edges),
                       known_corners(spikes_.fringes)) {}

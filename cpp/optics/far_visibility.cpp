@@ -75,10 +75,12 @@ Visibility::Visibility(const FarSource &source, double longest) {
     }
     most_.resize(table_.size());
     for (size_t j = table_.size(); j-- > 0;) {
-        for (size_t m = 0; m < far_colours; ++m)
-            most_[j] += std::hypot(table_[j].re[m], table_[j].im[m]);
-        if (j + 1 < table_.size())
-            most_[j] = std::max(most_[j], most_[j + 1]);
+        double re = 0, im = 0;
+        for (size_t m = 0; m < far_colours; ++m) {
+            re += table_[j].re[m];
+            im += table_[j].im[m];
+        }
+        most_[j] = std::max(std::hypot(re, im), j + 1 < table_.size() ? most_[j + 1] : 0);
     }
 }
 
@@ -160,7 +162,7 @@ std::vector<ColourWaves> EdgeColours::waves(const Edge &edge, double x, double y
     });
 }
 
-double most(const std::vector<ColourWaves> &waves) {
+double most(std::span<const ColourWaves> waves) {
     double square = 0;
     for (const ColourWaves &wave : waves)
         for (size_t m = 0; m < far_colours; ++m)

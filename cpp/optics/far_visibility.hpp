@@ -7,6 +7,7 @@
 #include "optics/pupil_edges.hpp"
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace wfpsf {
@@ -51,7 +52,7 @@ class Visibility {
     double per_path() const { return per_path_; }
     double longest() const { return static_cast<double>(table_.size()) - 4.001; } // entries
     const ColourWaves *table() const { return table_.data(); } // from one entry before no path
-    // The sum over colours; no longer path has more.
+    // Of all colours together; no longer path has more.
     double most(double path) const;
 
   private:
@@ -98,6 +99,6 @@ class EdgeColours {
 };
 
 // The largest of all.
-double most(const std::vector<ColourWaves> &waves);
+double most(std::span<const ColourWaves> waves);
 
 } // namespace wfpsf

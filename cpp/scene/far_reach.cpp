@@ -72,6 +72,13 @@ double FarReach::brightest_beyond(double radius) const {
     return ring(radius).brightest;
 }
 
+double FarReach::radius(double floor) const {
+    for (const Step &step : steps_)
+        if (step.floor <= floor)
+            return step.radius;
+    return farthest;
+}
+
 double FarReach::error(double radius, double flux, double variance) const {
     const Ring &at = ring(radius);
     return at.error / std::sqrt(1 + flux * at.brightest / variance);

@@ -31,6 +31,8 @@ class FarReach {
     double error(double radius, double flux, double variance) const;
     double brightest_beyond(double radius) const;
     double nearest() const { return nearest_; }
+    // From where on all pixels get less than a floor, one of the steps'.
+    double radius(double floor) const;
 
   private:
     double nearest_, of_bound_;

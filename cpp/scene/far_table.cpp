@@ -17,7 +17,7 @@ std::array<double, 4> weights(double t) {
 
 } // namespace
 
-FarTable::FarTable(const FarLight &light, double radius)
+FarTable::FarTable(const FarLight &light, double radius, double floor)
     : half_(static_cast<int64_t>(std::ceil(radius / block))) {
     // Samples of every sub-pixel phase are an image of native pixels of their own.
     const int64_t native = 2 * half_ * block + 4, size = native * per_pixel;
@@ -27,10 +27,9 @@ FarTable::FarTable(const FarLight &light, double radius)
     for (int64_t v = 0; v < per_pixel; ++v)
         for (int64_t u = 0; u < per_pixel; ++u) {
             phase = Plane<double>(native, native);
-            constexpr double no_floor = 1e-18;
             light.add({centre - static_cast<double>(u) / per_pixel,
                        centre - static_cast<double>(v) / per_pixel, 1},
-                      light.nearest(), no_floor, phase.view());
+                      light.nearest(), floor, phase.view());
             for (int64_t y = 0; y < native; ++y)
                 for (int64_t x = 0; x < native; ++x)
                     light_(x * per_pixel + u, y * per_pixel + v) = static_cast<float>(phase(x, y));
@@ -45,6 +44,25 @@ FarTable::FarTable(const FarLight &light, double radius)
                                                  (2 + b * block) * per_pixel + y));
             brightest_.push_back(most);
         }
+}
+
+FarTable FarTable::mixed(std::span<const FarTable> tables, std::span<const double> weights) {
+    FarTable sum = tables[0];
+    const auto scale_and_add = [&](float *to, auto from, size_t count) {
+        for (size_t i = 0; i < count; ++i) {
+            float value = 0;
+            for (size_t t = 0; t < tables.size(); ++t)
+                value += static_cast<float>(weights[t]) * from(tables[t])[i];
+            to[i] = value;
+        }
+    };
+    scale_and_add(
+        sum.light_.view().data, [](const FarTable &t) { return t.light_.view().data; },
+        static_cast<size_t>(sum.light_.nx() * sum.light_.ny()));
+    scale_and_add(
+        sum.brightest_.data(), [](const FarTable &t) { return t.brightest_.data(); },
+        sum.brightest_.size());
+    return sum;
 }
 
 template <class T>
@@ -94,6 +112,21 @@ void FarTable::add(const Star &star, double inner, double floor, View<T> image, 
             }
         }
     }
+}
+
+std::array<std::pair<double, double>, 4> FarTables::corners(const Region &image) {
+    return {std::pair(image.x0, image.y0), std::pair(image.x1, image.y0),
+            std::pair(image.x0, image.y1), std::pair(image.x1, image.y1)};
+}
+
+FarTable FarTables::of_cell(size_t cell) const {
+    if (tables_.size() == 1)
+        return tables_[0];
+    const auto middle = [this](size_t part) {
+        return (static_cast<double>(part) + 0.5) / static_cast<double>(across_);
+    };
+    const double u = middle(cell % across_), v = middle(cell / across_);
+    return FarTable::mixed(tables_, std::array{(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v});
 }
 
 template void FarTable::add(const Star &, double, double, View<float>, int64_t, int64_t) const;

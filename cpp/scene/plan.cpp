@@ -181,15 +181,18 @@ void ScenePlan::learn_colours(const SceneOptics &optics) {
             facts.far.emplace(*facts.far_light,
                               std::min(1.0, facts.profile.brightest_beyond(from) /
                                                 facts.far_light->brightest_beyond(from)));
-            if (optics.varies)
-                facts.far_varies = far_difference(
-                    *facts.far_light,
-                    FarLight(optics.nearest(optics.region.x0, optics.region.y0), light, settings));
+            if (optics.varies) {
+                facts.far_corner = std::make_shared<const FarLight>(
+                    optics.nearest(image_.x0, image_.y0), light, settings);
+                // What mixing the corners' leaves of the difference.
+                constexpr double mixed = 0.2;
+                facts.far_varies = mixed * far_difference(*facts.far_light, *facts.far_corner);
+            }
         }
     }
 }
 
-Region ScenePlan::galaxy_region() const {
+Region ScenePlan::region() const {
     return {image_.x0, image_.y0, image_.x0 + image_.native_x(), image_.y0 + image_.native_y()};
 }
 
@@ -206,7 +209,7 @@ void ScenePlan::choose_galaxy_cells(const SceneOptics &optics) {
             continue;
         const auto c = static_cast<size_t>(group.colour);
         if (change[c] < 0)
-            change[c] = change_over(galaxy_region(), optics, optics.lights[c]);
+            change[c] = change_over(region(), optics, optics.lights[c]);
         cell_error_[g] = group.densest * change[c] * after_blur(group);
         squares += cell_error_[g] * cell_error_[g];
     }

@@ -59,8 +59,8 @@ class ScenePlan {
     const ColourFacts &colour(int32_t colour) const {
         return colours_[static_cast<size_t>(colour)];
     }
-    // The image is cut into as many parts along each axis whose galaxies share a PSF.
-    Region galaxy_region() const;
+    Region region() const; // of the image
+    // It is cut into as many parts along each axis whose galaxies share a PSF.
     int galaxy_cells() const { return galaxy_cells_; }
     const SceneBudget &budget() const { return budget_; }
     const SceneImage &image() const { return image_; }

@@ -76,15 +76,33 @@ template <class T> class Renderer {
                     Manners{manners_.progress.between(0, 0.2), manners_.memory_limit});
                 report_.exact_psfs += models_[colour]->exact_psfs();
             }
-            const bool table = std::ranges::any_of(plan_.groups(), [&](const PlannedGroup &g) {
-                return g.group.colour == static_cast<int32_t>(colour) && g.way.far > 0 &&
-                       g.way.drawing == Drawing::shared;
-            });
-            if (table)
-                tables_[colour].emplace(*plan_.colour(static_cast<int32_t>(colour)).far_light,
-                                        Way::largest_table);
+            make_far_tables(static_cast<int32_t>(colour));
         }
         report_.models_s = clock.seconds();
+    }
+
+    // As far as the faintest that any group draws.
+    void make_far_tables(int32_t colour) {
+        double floor = INFINITY;
+        for (const PlannedGroup &g : plan_.groups())
+            if (g.group.colour == colour && g.way.far > 0 && g.way.drawing == Drawing::shared)
+                floor = std::min(floor, g.way.far);
+        if (!std::isfinite(floor))
+            return;
+        constexpr double below = 0.1; // light that sums of it must not count
+        const ColourFacts &facts = plan_.colour(colour);
+        const double radius = std::min(facts.far->radius(floor), Way::largest_table);
+        const auto c = static_cast<size_t>(colour);
+        std::vector<FarTable> tables;
+        tables.emplace_back(optics_.varies ? *facts.far_corner : *facts.far_light, radius,
+                            below * floor);
+        const auto corners = FarTables::corners(plan_.region());
+        if (optics_.varies)
+            for (const auto &[x, y] : std::span(corners).subspan(1))
+                tables.emplace_back(FarLight(optics_.nearest(x, y), optics_.lights[c],
+                                             probe_settings(optics_.settings)),
+                                    radius, below * floor);
+        tables_[c].emplace(std::move(tables), plan_.region());
     }
 
     // What came of the plan's tolerances.
@@ -92,13 +110,12 @@ template <class T> class Renderer {
         std::vector<PixelError> errors;
         for (const PlannedGroup &planned : plan_.groups()) {
             const Way &way = planned.way;
-            const double eps =
-                way.drawing == Drawing::shared
-                    ? models_[static_cast<size_t>(planned.group.colour)]->error_estimate()
-                    : way.eps;
+            Way made = way;
+            if (way.drawing == Drawing::shared)
+                made.eps = models_[static_cast<size_t>(planned.group.colour)]->error_estimate();
             errors.push_back({std::max(planned.error.local,
                                        psf_error(planned.group, plan_.colour(planned.group.colour),
-                                                 plan_.budget(), eps, way.left_out)),
+                                                 plan_.budget(), made)),
                               planned.error.mean});
         }
         report_.error = together(errors);
@@ -184,12 +201,29 @@ template <class T> class Renderer {
         const auto c = static_cast<size_t>(colour);
         models_[c]->add(std::span<const Star>(stars), details, plan_.image().x0, plan_.image().y0,
                         plan_.image().oversampling, image_, threads_);
-        on_rows(low, high, [&](int64_t first_row, int64_t last_row) {
-            for (size_t i = 0; i < stars.size(); ++i)
-                if (far[i] > 0)
-                    tables_[c]->add(stars[i], details[i].radius, far[i], image_, first_row,
-                                    last_row);
-        });
+        if (tables_[c])
+            draw_far(stars, details, far, *tables_[c], low, high);
+    }
+
+    // Beyond the stamps, cell by cell.
+    void draw_far(std::span<const Star> stars, std::span<const StarDetail> details,
+                  std::span<const double> floors, const FarTables &tables, double low,
+                  double high) {
+        std::vector<std::vector<size_t>> by_cell(tables.cells());
+        for (size_t i = 0; i < stars.size(); ++i)
+            if (floors[i] > 0)
+                by_cell[tables.cell_of(plan_.image().x0 + stars[i].x,
+                                       plan_.image().y0 + stars[i].y)]
+                    .push_back(i);
+        for (size_t cell = 0; cell < by_cell.size(); ++cell) {
+            if (by_cell[cell].empty())
+                continue;
+            const FarTable table = tables.of_cell(cell);
+            on_rows(low, high, [&](int64_t first_row, int64_t last_row) {
+                for (const size_t i : by_cell[cell])
+                    table.add(stars[i], details[i].radius, floors[i], image_, first_row, last_row);
+            });
+        }
     }
 
     // Galaxies of one part of the detector after another; each part's share a PSF.
@@ -202,7 +236,7 @@ template <class T> class Renderer {
             const double part = (at - low) / (high - low) * cells;
             return static_cast<size_t>(std::clamp(part, 0.0, static_cast<double>(cells - 1)));
         };
-        const Region region = plan_.galaxy_region();
+        const Region region = plan_.region();
         std::vector<const PlacedSource *> own;
         for (const PlacedSource &source : plan_.sources()) {
             const Drawing drawing = plan_.group_of(source).way.drawing;
@@ -341,7 +375,7 @@ template <class T> class Renderer {
     const Manners &manners_;
     // By colour.
     std::vector<std::unique_ptr<VaryingPsf>> models_;
-    std::vector<std::optional<FarTable>> tables_;
+    std::vector<std::optional<FarTables>> tables_;
     RenderReport report_;
 };
 

@@ -15,8 +15,9 @@ namespace {
 // Errors below that share of the budget need not become smaller.
 constexpr double negligible = 0.01;
 
-// What PSFs are off and lack is no larger than that, of what they may be (tests/unit/optics).
-constexpr double of_bound = 0.3;
+// What PSFs are off and lack is no larger than that, of what they may be: those of the whole
+// detector, and exact ones (tests/unit/optics).
+constexpr double of_bound = 0.3, of_exact = 0.05;
 
 // PSFs of one place are some share of the light off those of others near by.
 constexpr double differs = 0.1;
@@ -51,7 +52,7 @@ double SceneBudget::error() const {
 }
 
 double psf_error(const SourceGroup &group, const ColourFacts &colour, const SceneBudget &budget,
-                 double eps, double left_out) {
+                 const Way &way) {
     const double peak = colour.profile.peak();
     // In units of a dark pixel's noise, where the group's faintest gives that share of its light.
     const auto in_noise = [&](double error, double light) {
@@ -61,9 +62,9 @@ double psf_error(const SourceGroup &group, const ColourFacts &colour, const Scen
     // A galaxy drawn as a star: half the curvature of the PSF times the mean square along an axis;
     // the curvature of Roman's PSFs at the peak is below 4 / pixel^2 of it.
     const double point_like = group.is_galaxy ? std::min(1.0, group.mean_square) * peak : 0;
-    const double of_psf = of_bound * eps * peak;
+    const double of_psf = (way.drawing == Drawing::own ? of_exact : of_bound) * way.eps * peak;
     return std::max(in_noise(of_psf, in_core), group.densest * VaryingPsf::error_far_off * of_psf) +
-           in_noise(of_bound * left_out, std::min(in_core, left_out / differs)) +
+           in_noise(of_bound * way.left_out, std::min(in_core, way.left_out / differs)) +
            in_noise(point_like, in_core);
 }
 
@@ -112,13 +113,14 @@ PixelError Ways::left_out(const Way &way) const {
 }
 
 void Ways::with_and_without_far(const Way &way, double time_s, const Take &take) const {
-    const double of_psf = psf_error(group_, colour_, budget_, way.eps, way.left_out);
+    const double of_psf = psf_error(group_, colour_, budget_, way);
     const double beyond = way.radius >= group_.reach ? 0 : colour_.profile.beyond(way.radius);
     if (beyond <= budget_.flux) {
         const PixelError error = left_out(way);
         take({way, time_s, {error.local + of_psf, error.mean}});
     }
-    if (!colour_.far || way.radius < colour_.far->nearest() || way.radius >= group_.reach)
+    if (!colour_.far || image_.oversampling != 1 || way.radius < colour_.far->nearest() ||
+        way.radius >= group_.reach)
         return;
     const FarReach &far = *colour_.far;
     const bool own = way.drawing == Drawing::own;

@@ -61,7 +61,8 @@ struct ColourFacts {
     bool varies = false;                       // over the detector
     std::shared_ptr<const FarLight> far_light; // of the detector's middle, if plans may use it
     std::optional<FarReach> far;
-    double far_varies = 0; // share of the far light that differs over the detector
+    std::shared_ptr<const FarLight> far_corner; // of the image's first pixel, where it differs
+    double far_varies = 0; // share of the far light that mixing that of the corners leaves
 };
 
 // Errors of a pixel, e-; where a star's own light adds noise, as many as are that share of the
@@ -78,10 +79,9 @@ struct Offer {
 };
 using Take = std::function<void(const Offer &)>;
 
-// What a group's stars are off, e- as in PixelError, by PSFs made to `eps` of their peak that lack
-// `left_out` of the light in a pixel.
+// What a group's stars are off, e- as in PixelError, by a way's PSFs.
 double psf_error(const SourceGroup &group, const ColourFacts &colour, const SceneBudget &budget,
-                 double eps, double left_out);
+                 const Way &way);
 
 class Ways {
   public:
