@@ -42,5 +42,6 @@ std::vector<Case> study_cases();
 std::vector<Case> observation_cases();
 std::vector<Case> scene_cases();
 std::vector<Case> galaxy_cases();
+std::vector<Case> roofline_cases();
 
 } // namespace wfpsf::bench

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <fstream>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -84,6 +85,13 @@ std::string machine() {
     return "unknown";
 }
 
+std::string today() {
+    const std::time_t now = std::time(nullptr);
+    char text[16];
+    std::strftime(text, sizeof text, "%Y-%m-%d", std::gmtime(&now));
+    return text;
+}
+
 } // namespace
 
 } // namespace wfpsf::bench
@@ -91,9 +99,9 @@ std::string machine() {
 int main(int argc, char **argv) {
     using namespace wfpsf::bench;
     std::vector<Case> cases = psf_cases();
-    for (auto more :
-         {wide_psf_cases(), far_light_cases(), varying_psf_cases(), transform_cases(), ipc_cases(),
-          moments_cases(), study_cases(), observation_cases(), galaxy_cases(), scene_cases()})
+    for (auto more : {wide_psf_cases(), far_light_cases(), varying_psf_cases(), transform_cases(),
+                      ipc_cases(), moments_cases(), study_cases(), observation_cases(),
+                      galaxy_cases(), scene_cases(), roofline_cases()})
         cases.insert(cases.end(), more.begin(), more.end());
 
     if (argc > 2)
@@ -101,7 +109,7 @@ int main(int argc, char **argv) {
                       [&](const Case &c) { return c.name.find(argv[2]) == std::string::npos; });
     std::ofstream json(argc > 1 ? argv[1] : "bench.json");
     json << "{\"machine\": \"" << machine() << "\", \"version\": \"" << wfpsf_version()
-         << "\", \"cases\": [";
+         << "\", \"date\": \"" << today() << "\", \"cases\": [";
     std::printf("%s, wfpsf %s, one thread\n\n", machine().c_str(), wfpsf_version());
     std::printf("%-68s %10s %10s %9s %9s %8s  %s\n", "case", "median", "target", "error", "target",
                 "MiB", "against");

@@ -105,6 +105,25 @@ Case roman_case(const char *band, double band_wavelength) {
             }};
 }
 
+// The pupil as a mask of its lit fractions; the error is that of pixels in place of edges.
+Case mask_case(int64_t n) {
+    char name[64];
+    std::snprintf(name, sizeof name, "PSF model, mask of %lld^2, the same, eps 1e-06",
+                  static_cast<long long>(n));
+    return {name, "largest pixel error / peak pixel", 0, 0, [n] {
+                const PupilRaster drawn = make_aperture(c5_pupil())->raster(n, n);
+                const auto make = [&] {
+                    return Psf(
+                        make_aperture(drawn.lit.view(), drawn.scale, drawn.axis_x, drawn.axis_y),
+                        sca7(), {wavelength, pixel_scale, 1e-6, radius});
+                };
+                Measured m;
+                m.timing = time(make);
+                m.error = draw_error(make(), c5_truth(), 32, 1);
+                return m;
+            }};
+}
+
 Case draw_case(const std::string &name, double eps, int64_t n, int64_t oversampling,
                double target_s, bool with_model) {
     return {name, "largest pixel error / peak pixel", target_s, eps, [=] {
@@ -161,6 +180,9 @@ std::vector<Case> psf_cases() {
             model_case(1e-10, 5e-3),
             roman_case("J129", 1292.11e-9),
             roman_case("F184", 1837.3e-9),
+            mask_case(512),
+            mask_case(1024),
+            mask_case(4096),
             stamp_case(1e-3, 0),
             stamp_case(1e-5, 5e-6),
             stamp_case(1e-7, 0),

@@ -115,9 +115,14 @@ Case large_case(int64_t n, double eps) {
 
 std::vector<Case> wide_psf_cases() {
     return {chromatic_stamp_case("J129", 1e-3, 0, 1),
+            chromatic_stamp_case("J129", 1e-4, 0, 1),
             chromatic_stamp_case("J129", 1e-5, 30e-3, 1),
+            chromatic_stamp_case("J129", 1e-6, 0, 1),
+            chromatic_stamp_case("J129", 1e-7, 0, 1),
             chromatic_stamp_case("J129", 1e-5, 0, 10),
+            chromatic_stamp_case("W146", 1e-3, 0, 1),
             chromatic_stamp_case("W146", 1e-5, 80e-3, 1),
+            chromatic_stamp_case("W146", 1e-7, 0, 1),
             chromatic_case("chromatic field, Roman J129, +-256 native pixels, eps 1e-06", "J129",
                            1e-6, 0, 1, 256, 32),
             large_case(512, 1e-8),

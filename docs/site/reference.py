@@ -9,7 +9,9 @@ import re
 import sys
 from pathlib import Path
 
+import fortran_reference
 import headers
+import julia_reference
 import python_reference
 
 CONSTANTS = {}
@@ -160,8 +162,8 @@ def rewritten(name, text, callers):
 def pages(folder, callers):
     names = [name for name in headers.HEADERS]
     index = ["# The C interface", "",
-             "One page for each header, made from its comments. Fortran and Julia have the same",
-             "nouns and verbs: `bindings/fortran/src/wfpsf.f90`, and Julia's `?name`.", "",
+             "One page for each header, made from its comments. [Fortran](fortran),",
+             "[Julia](julia) and [Python](python) have the same nouns and verbs.", "",
              "```{toctree}", ":maxdepth: 1", "", *(name.removesuffix(".h") for name in names),
              "examples", "```", ""]
     (folder / "index.md").write_text("\n".join(index))
@@ -171,7 +173,11 @@ def pages(folder, callers):
         (folder / f"{stem}.rst").write_text(
             f"{title}\n{'=' * len(title)}\n\n.. doxygenfile:: {name}\n"
             "   :sections: briefdescription detaileddescription define enum typedef func\n")
+    comments = {function: comment for name in names
+                for function, comment in headers.functions(headers.text_of(name)).items()}
     (folder / "python.rst").write_text("\n".join(python_reference.page()) + "\n")
+    (folder / "fortran.rst").write_text("\n".join(fortran_reference.page(comments, linked)) + "\n")
+    (folder / "julia.md").write_text("\n".join(julia_reference.page()) + "\n")
     lines = ["# Where each function is used", "",
              "Examples and tests that call it, the shortest way to see it at work. Found in the",
              "sources as this page was made.", "", "| Function | Used in |", "|---|---|"]

@@ -450,7 +450,7 @@ module wfpsf
     private :: instrument_band, instrument_band_name, instrument_throughput, instrument_zernikes
     private :: instrument_create_from_design, instrument_pupil, instrument_finalize
     interface
-        ! name: "wfirst-afta-c5".
+        ! name: "wfirst-afta-c5" or "roman-c9".
         module subroutine instrument_create(self, name, stat, errmsg)
             class(wfpsf_instrument), intent(inout) :: self
             character(len=*), intent(in) :: name
