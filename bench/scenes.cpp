@@ -158,10 +158,18 @@ Case stars_case(const Stars &field, double noise, double target_s, bool with_err
 
 } // namespace
 
+// Time against budget, and against how bright the brightest stars are.
 std::vector<Case> scene_cases() {
-    return {stars_case({100000, 24, 28}, 0.01, 5, true), stars_case({100000, 20, 28}, 0.1, 0, true),
-            stars_case({100000, 20, 28}, 0.03, 0, false),
-            stars_case({10000000, 26, 28}, 1, 0, false)};
+    std::vector<Case> cases;
+    for (const double noise : {0.1, 0.03, 0.01, 0.003})
+        cases.push_back(stars_case({100000, 24, 28}, noise, noise == 0.01 ? 5 : 0, noise > 0.005));
+    for (const double noise : {0.1, 0.03, 0.01})
+        cases.push_back(stars_case({100000, 20, 28}, noise, 0, false));
+    cases.push_back(stars_case({100000, 16, 28}, 0.1, 0, false));
+    for (const double noise : {0.1, 0.03, 0.01})
+        cases.push_back(stars_case({100000, 12, 28}, noise, noise == 0.01 ? 5 : 0, false));
+    cases.push_back(stars_case({10000000, 26, 28}, 1, 0, false));
+    return cases;
 }
 
 } // namespace wfpsf::bench

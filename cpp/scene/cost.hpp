@@ -65,6 +65,10 @@ inline double far_blocks(double pixels) {
 
 // What they are made from.
 constexpr double making_far_light = 0.27;
+inline double far_tables(bool varies) {
+    constexpr double table = 0.1;
+    return varies ? 3 * making_far_light + 4 * table : table;
+}
 
 // What galaxies are drawn with.
 inline double otf(double bandwidth) {

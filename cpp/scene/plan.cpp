@@ -233,19 +233,25 @@ void ScenePlan::collect_offers() {
     by_model_.assign(colours_.size(), {});
     for (size_t colour = 0; colour < colours_.size(); ++colour) {
         const ColourFacts &facts = colours_[colour];
+        const auto add_model = [&](const SharedModel &model) {
+            ModelOffers &offers = by_model_[colour].emplace_back();
+            offers.model = model;
+            offers.by_group.resize(planned_.size());
+            for (size_t g = 0; g < planned_.size(); ++g)
+                if (planned_[g].group.colour == static_cast<int32_t>(colour))
+                    Ways(planned_[g].group, facts, budget_, image_)
+                        .of_shared(model, [&](const Offer &offer) {
+                            if (model.far || offer.way.far == 0)
+                                add_useful(offers.by_group[g], offer);
+                        });
+        };
         for (const double eps :
              {1e-2, 1e-3, 1e-4, 2.5e-5, 1e-5, 3e-6, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10})
             for (const double radius : {8.0, 16.0, 24.0, 32.0, 48.0, 64.0, 96.0, 128.0}) {
-                ModelOffers &offers = by_model_[colour].emplace_back();
-                offers.model = {true, eps, radius,
-                                cost::shared_psf(radius, eps, facts.bandwidth, facts.varies)};
-                offers.by_group.resize(planned_.size());
-                for (size_t g = 0; g < planned_.size(); ++g)
-                    if (planned_[g].group.colour == static_cast<int32_t>(colour))
-                        Ways(planned_[g].group, facts, budget_, image_)
-                            .of_shared(offers.model, [&](const Offer &offer) {
-                                add_useful(offers.by_group[g], offer);
-                            });
+                const double time = cost::shared_psf(radius, eps, facts.bandwidth, facts.varies);
+                add_model({true, false, eps, radius, time});
+                if (facts.far && radius > facts.far->nearest())
+                    add_model({true, true, eps, radius, time + cost::far_tables(facts.varies)});
             }
     }
 }

@@ -50,6 +50,7 @@ struct Way {
 // A PSF of the whole detector that groups of one colour share.
 struct SharedModel {
     bool needed = false;
+    bool far = false;           // with tables of far light
     double eps = 0, radius = 0; // native pixels
     double time_s = 0;
 };

@@ -14,7 +14,7 @@ pixels_there = draw(PSF(varying, 300, 4000), 11, 11).pixels
 
 # A star in an image that begins at (295, 3995) of the detector.
 image = add_stars!(Image(Float64, 11, 11), varying, 295, 3995, [6], [6], [2]; threads = 2)
-@test image.pixels ≈ 2 * pixels_there
+@test maximum(abs.(image.pixels - 2 * pixels_there)) < 0.1 * few.eps * 2 * maximum(pixels_there)
 @test_throws DimensionMismatch add_stars!(image, varying, 1, 1, [1, 2], [1], [1])
 
 # A source of many colours, through the other constructor, where nothing varies.
