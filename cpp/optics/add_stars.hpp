@@ -69,4 +69,15 @@ template <class Work> void on_bands_of_rows(int64_t rows, int threads, const Wor
                   [&](int64_t band) { work(rows * band / bands, rows * (band + 1) / bands - 1); });
 }
 
+// Of those rows alone, of 1 or more, that stars reach from `low` to `high`.
+template <class Work>
+void on_bands_of_rows(double low, double high, int64_t rows, int threads, const Work &work) {
+    const auto last = static_cast<double>(rows - 1);
+    const auto first = static_cast<int64_t>(std::floor(std::clamp(low, 0.0, last)));
+    const auto end = static_cast<int64_t>(std::ceil(std::clamp(high, 0.0, last))) + 1;
+    on_bands_of_rows(end - first, threads, [&](int64_t first_row, int64_t last_row) {
+        work(first + first_row, first + last_row);
+    });
+}
+
 } // namespace wfpsf

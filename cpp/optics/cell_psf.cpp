@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace wfpsf {
 
@@ -118,7 +119,8 @@ void CellPsf::add_degree(int a, int b, std::span<const LightMode> modes, double 
     for (const LightMode &mode : modes)
         weights.push_back(along_u[static_cast<size_t>(mode.i)][static_cast<size_t>(a)] *
                           along_v[static_cast<size_t>(mode.j)][static_cast<size_t>(b)]);
-    const std::vector<double> radii = LeftOut(modes, weights).radii(radius, lacks);
+    const LeftOut left_out(modes, weights);
+    const std::vector<double> radii = left_out.radii(radius, lacks);
     if (radii.empty())
         return;
     const auto sum = [&](Plane<double> &light) {
@@ -128,14 +130,9 @@ void CellPsf::add_degree(int a, int b, std::span<const LightMode> modes, double 
     if (a + b == 0)
         return sum(middle_.value);
     const int64_t half = std::min(half_of(middle_, radii[0]), middle_.value.nx() / 2);
-    LightMode &correction =
-        corrections_.emplace_back(LightMode{a, b, Plane<double>(2 * half + 1, 2 * half + 1), {}});
-    sum(correction.light);
-    for (size_t r = 0; r < modes[0].brightest.size(); ++r) {
-        double &most = correction.brightest.emplace_back(0);
-        for (size_t k = 0; k < modes.size(); ++k)
-            most += std::abs(weights[k]) * modes[k].brightest[r];
-    }
+    Plane<double> light(2 * half + 1, 2 * half + 1);
+    sum(light);
+    corrections_.push_back({a, b, std::move(light), left_out.all()});
 }
 
 const std::vector<double> &CellPsf::radii(double radius, double lacks) {

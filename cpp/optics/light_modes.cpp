@@ -29,6 +29,13 @@ LeftOut::LeftOut(std::span<const LightMode> modes, std::span<const double> weigh
             beyond_[r][k] = beyond_[r][k + 1] + std::abs(weights[k]) * modes[k].brightest[r];
 }
 
+std::vector<double> LeftOut::all() const {
+    std::vector<double> all;
+    for (const std::vector<double> &ring : beyond_)
+        all.push_back(ring[0]);
+    return all;
+}
+
 std::vector<double> LeftOut::radii(double radius, double most) const {
     std::vector<double> radii;
     size_t r = beyond_.size(); // beyond r - 1 all modes after the first k are left out

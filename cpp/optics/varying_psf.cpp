@@ -345,10 +345,17 @@ void VaryingPsf::add(std::span<const Star> stars, std::span<const StarDetail> de
                      double y0, int64_t oversampling, View<T> image, int threads) const {
     const auto n = static_cast<double>(oversampling);
     std::vector<Place> places;
-    for (const Star &star : stars)
+    double low = INFINITY, high = -INFINITY; // rows
+    for (size_t i = 0; i < stars.size(); ++i) {
+        const Star &star = stars[i];
         places.push_back(scaled(x0 + native_of(star.x, n), y0 + native_of(star.y, n)));
+        low = std::min(low, star.y - n * details[i].radius);
+        high = std::max(high, star.y + n * details[i].radius);
+    }
+    if (image.empty() || stars.empty())
+        return;
     const std::vector<CellStars> cells = by_cell(places, details);
-    on_bands_of_rows(image.ny, threads, [&](int64_t first_row, int64_t last_row) {
+    on_bands_of_rows(low, high, image.ny, threads, [&](int64_t first_row, int64_t last_row) {
         StarRows<T> rows(oversampling, image, first_row, last_row);
         for (const CellStars &cell : cells) {
             std::optional<CellPsf> psf;

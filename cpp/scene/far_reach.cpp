@@ -38,11 +38,10 @@ std::optional<FarLight> far_light_of(const Optics &optics, const Light &light,
     }
 }
 
-FarReach::FarReach(const FarLight &light, double brightest)
-    : nearest_(light.nearest()), of_bound_(brightest) {
-    double floor = of_bound_ * light.brightest_beyond(nearest_);
+FarReach::FarReach(const FarLight &light, double brightest) : nearest_(light.nearest()) {
+    double floor = brightest * light.brightest_beyond(nearest_);
     while (floor > 1e-14) {
-        const double radius = radius_of(light, floor / of_bound_);
+        const double radius = radius_of(light, floor / brightest);
         const double halo = std::min(light.halo_radius(floor), radius);
         double width = 0;
         const double half_way = std::sqrt(nearest_ * radius);
@@ -58,7 +57,7 @@ FarReach::FarReach(const FarLight &light, double brightest)
     while (r < farthest) {
         const double bound = light.brightest_beyond(r);
         rings_.push_back(
-            {of_bound_ * bound, std::max(light.relative_error(r).spikes * bound,
+            {brightest * bound, std::max(light.relative_error(r).spikes * bound,
                                          light.relative_error(r).halo * light.halo_beyond(r))});
         r *= std::exp2(1 / rings_per_octave);
     }

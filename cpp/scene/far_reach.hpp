@@ -35,7 +35,7 @@ class FarReach {
     double radius(double floor) const;
 
   private:
-    double nearest_, of_bound_;
+    double nearest_;
     std::vector<Step> steps_;
     struct Ring {
         double brightest, error;

@@ -150,9 +150,9 @@ ScenePlan::ScenePlan(const SceneOptics &optics, std::vector<PlacedSource> source
 }
 
 void ScenePlan::learn_colours(const SceneOptics &optics) {
-    PsfSettings settings = probe_settings(optics.settings);
     const Optics middle = optics.middle();
     for (size_t c = 0; c < optics.lights.size(); ++c) {
+        PsfSettings settings = probe_settings(optics.settings);
         const Light &light = optics.lights[c];
         ColourFacts &facts = colours_.emplace_back();
         double brightest = 0;
@@ -160,7 +160,6 @@ void ScenePlan::learn_colours(const SceneOptics &optics) {
             if (planned.group.colour == static_cast<int32_t>(c))
                 brightest = std::max(brightest, planned.group.brightest);
         // Bright stars are seen farther.
-        settings.radius = 32;
         const auto look = [&] {
             facts.profile = LightProfile(make_psfs(middle, {&light, 1}, settings)[0]);
             return brightest * facts.profile.brightest_beyond(facts.profile.seen());

@@ -3,6 +3,7 @@
 
 #include "image/sampling.hpp"
 #include "numerics/bands.hpp"
+#include "optics/add_stars.hpp"
 #include "scene/faint_light.hpp"
 #include "scene/far_table.hpp"
 #include "scene/galaxy.hpp"
@@ -123,14 +124,7 @@ template <class T> class Renderer {
 
     // work(first_row, last_row) on bands of the rows that stars reach.
     template <class Work> void on_rows(double low, double high, const Work &work) const {
-        const auto last = static_cast<double>(image_.ny - 1);
-        const auto first_row = static_cast<int64_t>(std::floor(std::clamp(low, 0.0, last)));
-        const auto rows =
-            static_cast<int64_t>(std::ceil(std::clamp(high, 0.0, last))) - first_row + 1;
-        const auto bands = std::clamp<int64_t>(threads_, 1, rows);
-        for_each_band(bands, [&](int64_t band) {
-            work(first_row + rows * band / bands, first_row + rows * (band + 1) / bands - 1);
-        });
+        on_bands_of_rows(low, high, image_.ny, threads_, work);
     }
 
     // A part of the sources at a time, so that memory does not grow with their number.
