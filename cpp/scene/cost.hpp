@@ -65,9 +65,9 @@ inline double far_blocks(double pixels) {
 
 // What they are made from.
 constexpr double making_far_light = 0.27;
-inline double far_tables(bool varies) {
-    constexpr double table = 0.1;
-    return varies ? 3 * making_far_light + 4 * table : table;
+inline double far_tables(double radius, bool varies) {
+    const double native = 4 * radius * radius;
+    return varies ? 9 * making_far_light + 2e-6 * native : making_far_light + 0.8e-6 * native;
 }
 
 // What galaxies are drawn with.

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/far_table.hpp"
 
+#include "numerics/cubic_spline.hpp"
+#include "numerics/dispatch.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,127 +12,236 @@ namespace wfpsf {
 
 namespace {
 
-// Cubic Lagrange interpolation between samples -1, 0, 1, 2, at t of 0..1.
-std::array<double, 4> weights(double t) {
-    return {-t * (t - 1) * (t - 2) / 6, (t + 1) * (t - 1) * (t - 2) / 2, -(t + 1) * t * (t - 2) / 2,
-            (t + 1) * t * (t - 1) / 6};
+constexpr int64_t taps = 4;  // along an axis
+constexpr int64_t block = 8; // native pixels: one vector
+
+// The first pixel of a block is the sum of these coefficients; the next ones are beside them, the
+// next rows' `stride` after them.
+struct Taps {
+    std::array<const float *, taps * taps> first;
+    std::array<float, taps * taps> weight;
+    int64_t stride;
+};
+
+WFPSF_VECTORISED void sum(const Taps &of, float *pixels) {
+    for (int64_t y = 0; y < block; ++y) {
+        float sums[block] = {};
+        for (size_t k = 0; k < of.first.size(); ++k)
+            for (int64_t i = 0; i < block; ++i)
+                sums[i] += of.weight[k] * of.first[k][y * of.stride + i];
+        for (int64_t i = 0; i < block; ++i)
+            pixels[y * block + i] = sums[i];
+    }
+}
+
+// The quadratics that are 1 at -1, 0 and 1 in turn, and 0 at the others.
+std::array<double, 3> quadratics(double u) {
+    return {u * (u - 1) / 2, 1 - u * u, u * (u + 1) / 2};
+}
+
+// Coarse samples do for what is small.
+constexpr int64_t per_pixel_of_light = 4, per_pixel_of_differences = 2;
+
+SampledLight sampled_middle(const FarLight &light, const Psf *exact, double radius, double floor) {
+    SampledLight sampled(per_pixel_of_light, radius);
+    double inner = light.nearest();
+    if (exact) {
+        sampled.add(*exact);
+        inner = exact->settings().radius;
+    }
+    sampled.add(light, inner, floor);
+    return sampled;
+}
+
+SampledLight sampled_difference(const FarLight &light, const SampledLight &from, double radius,
+                                double floor) {
+    SampledLight sampled(per_pixel_of_differences, radius);
+    sampled.add(light, light.nearest(), floor);
+    for (int64_t y = 0; y < sampled.sample.ny(); ++y)
+        for (int64_t x = 0; x < sampled.sample.nx(); ++x)
+            sampled.sample(x, y) -= from.sample(x, y);
+    return sampled;
 }
 
 } // namespace
 
-FarTable::FarTable(const FarLight &light, double radius, double floor)
-    : half_(static_cast<int64_t>(std::ceil(radius / block))) {
-    // Samples of every sub-pixel phase are an image of native pixels of their own.
-    const int64_t native = 2 * half_ * block + 4, size = native * per_pixel;
-    light_ = Plane<float>(size, size);
-    Plane<double> phase(native, native);
-    const double centre = static_cast<double>(native) / 2;
+// Blocks of a table reach a little farther than its light.
+SampledLight::SampledLight(int64_t samples, double radius)
+    : per_pixel(samples), half(static_cast<int64_t>(std::ceil(radius)) + 3 * block),
+      sample(2 * half * per_pixel + 1, 2 * half * per_pixel + 1) {}
+
+// Samples of every sub-pixel phase are an image of native pixels of their own.
+void SampledLight::add(const FarLight &light, double inner, double floor) {
     for (int64_t v = 0; v < per_pixel; ++v)
         for (int64_t u = 0; u < per_pixel; ++u) {
-            phase = Plane<double>(native, native);
-            light.add({centre - static_cast<double>(u) / per_pixel,
-                       centre - static_cast<double>(v) / per_pixel, 1},
-                      light.nearest(), floor, phase.view());
-            for (int64_t y = 0; y < native; ++y)
-                for (int64_t x = 0; x < native; ++x)
-                    light_(x * per_pixel + u, y * per_pixel + v) = static_cast<float>(phase(x, y));
-        }
-    const int64_t blocks = 2 * half_;
-    for (int64_t b = 0; b < blocks; ++b)
-        for (int64_t a = 0; a < blocks; ++a) {
-            float most = 0;
-            for (int64_t y = 0; y < block * per_pixel; ++y)
-                for (int64_t x = 0; x < block * per_pixel; ++x)
-                    most = std::max(most, light_((2 + a * block) * per_pixel + x,
-                                                 (2 + b * block) * per_pixel + y));
-            brightest_.push_back(most);
+            const View<float> all = sample.view();
+            const View<float> phase{all.row(v) + u, (all.nx - u + per_pixel - 1) / per_pixel,
+                                    (all.ny - v + per_pixel - 1) / per_pixel, per_pixel,
+                                    per_pixel * all.stride_y};
+            const auto star = [this](int64_t first) {
+                return static_cast<double>(half) -
+                       static_cast<double>(first) / static_cast<double>(per_pixel);
+            };
+            light.add({star(u), star(v), 1}, inner, floor, phase);
         }
 }
 
-FarTable FarTable::mixed(std::span<const FarTable> tables, std::span<const double> weights) {
-    FarTable sum = tables[0];
-    const auto scale_and_add = [&](float *to, auto from, size_t count) {
-        for (size_t i = 0; i < count; ++i) {
-            float value = 0;
-            for (size_t t = 0; t < tables.size(); ++t)
-                value += static_cast<float>(weights[t]) * from(tables[t])[i];
-            to[i] = value;
+void SampledLight::add(const Psf &psf) {
+    const auto reach = static_cast<int64_t>(
+        std::min(std::floor(psf.settings().radius), static_cast<double>(half)) *
+        static_cast<double>(per_pixel));
+    const int64_t first = half * per_pixel - reach;
+    const View<float> all = sample.view();
+    const View<float> within{all.row(first) + first, 2 * reach + 1, 2 * reach + 1, 1, all.stride_y};
+    // Samples get their share of a native pixel.
+    const auto middle = static_cast<double>(reach);
+    psf.draw({middle, middle, static_cast<double>(per_pixel * per_pixel)}, per_pixel, within,
+             Psf::Drawing::adds);
+}
+
+FarTable::FarTable(SampledLight light, double radius)
+    : per_pixel_(light.per_pixel), half_(light.half), radius_(radius) {
+    const auto blocks = static_cast<int64_t>(std::ceil(radius / block)) + 1;
+    for (int64_t b = -blocks; b < blocks; ++b)
+        for (int64_t a = -blocks; a < blocks; ++a) {
+            float most = 0; // wherever in its pixel the star stands
+            for (int64_t y = -per_pixel_; y < block * per_pixel_; ++y)
+                for (int64_t x = -per_pixel_; x < block * per_pixel_; ++x)
+                    most = std::max(most,
+                                    std::abs(light.sample((half_ + a * block) * per_pixel_ + x,
+                                                          (half_ + b * block) * per_pixel_ + y)));
+            blocks_.push_back({static_cast<double>(most), a * block, b * block});
         }
-    };
-    scale_and_add(
-        sum.light_.view().data, [](const FarTable &t) { return t.light_.view().data; },
-        static_cast<size_t>(sum.light_.nx() * sum.light_.ny()));
-    scale_and_add(
-        sum.brightest_.data(), [](const FarTable &t) { return t.brightest_.data(); },
-        sum.brightest_.size());
-    return sum;
+    std::ranges::stable_sort(blocks_, std::ranges::greater(), &Block::brightest);
+    to_spline_coefficients(light.sample);
+    const int64_t native = 2 * half_;
+    light_ = Plane<float>(native, native * per_pixel_ * per_pixel_);
+    for (int64_t y = 0; y < native * per_pixel_; ++y)
+        for (int64_t x = 0; x < native; ++x)
+            for (int64_t u = 0; u < per_pixel_; ++u)
+                light_(x, y * per_pixel_ + u) = light.sample(x * per_pixel_ + u, y);
 }
 
 template <class T>
 void FarTable::add(const Star &star, double inner, double floor, View<T> image, int64_t first_row,
                    int64_t last_row) const {
-    // Pixel p of the image is at p - star of the table, whose first sample is at -origin.
-    const double origin = static_cast<double>(half_ * block + 2);
-    const double fraction_x = star.x - std::floor(star.x), fraction_y = star.y - std::floor(star.y);
     const auto base_x = static_cast<int64_t>(std::floor(star.x));
     const auto base_y = static_cast<int64_t>(std::floor(star.y));
-    // The same fraction of a sample for all pixels.
-    const auto split = [origin](double fraction) {
-        const double at = (origin - fraction) * per_pixel;
-        return std::pair(static_cast<int64_t>(std::floor(at)), at - std::floor(at));
+    // Of the star's pixel, the same fraction of a sample for all: taps by native pixel and phase.
+    struct Axis {
+        std::array<int64_t, taps> pixel, phase;
+        std::array<double, taps> weight;
     };
-    const auto [sample_x, tx] = split(fraction_x);
-    const auto [sample_y, ty] = split(fraction_y);
-    const std::array<double, 4> wx = weights(tx), wy = weights(ty);
-    for (int64_t b = -half_; b < half_; ++b) {
-        const int64_t y0 = std::max(base_y + b * block, first_row);
-        const int64_t y1 = std::min(base_y + (b + 1) * block - 1, last_row);
-        if (y0 > y1)
-            continue;
-        for (int64_t a = -half_; a < half_; ++a) {
-            const auto i = static_cast<size_t>((b + half_) * 2 * half_ + a + half_);
-            if (static_cast<double>(brightest_[i]) <= floor)
-                continue;
-            const int64_t x0 = std::max<int64_t>(base_x + a * block, 0);
-            const int64_t x1 = std::min(base_x + (a + 1) * block - 1, image.nx - 1);
-            for (int64_t y = y0; y <= y1; ++y) {
-                const bool row_inside = std::abs(static_cast<double>(y) - star.y) <= inner;
-                const int64_t row = sample_y + (y - base_y) * per_pixel - 1;
-                for (int64_t x = x0; x <= x1; ++x) {
-                    if (row_inside && std::abs(static_cast<double>(x) - star.x) <= inner)
-                        continue;
-                    const int64_t column = sample_x + (x - base_x) * per_pixel - 1;
-                    double sum = 0;
-                    for (int64_t v = 0; v < 4; ++v) {
-                        const float *const from = &light_(column, row + v);
-                        sum += wy[static_cast<size_t>(v)] * (wx[0] * static_cast<double>(from[0]) +
-                                                             wx[1] * static_cast<double>(from[1]) +
-                                                             wx[2] * static_cast<double>(from[2]) +
-                                                             wx[3] * static_cast<double>(from[3]));
-                    }
-                    image(x, y) += static_cast<T>(star.flux * sum);
-                }
-            }
+    const auto axis = [this](double fraction) {
+        const double at = (static_cast<double>(half_) - fraction) * static_cast<double>(per_pixel_);
+        Axis found{{}, {}, spline_weights(at - std::floor(at))};
+        for (size_t k = 0; k < found.pixel.size(); ++k) {
+            const int64_t sample =
+                static_cast<int64_t>(std::floor(at)) - 1 + static_cast<int64_t>(k);
+            found.pixel[k] = sample / per_pixel_;
+            found.phase[k] = sample % per_pixel_;
         }
+        return found;
+    };
+    const Axis x_axis = axis(star.x - static_cast<double>(base_x));
+    const Axis y_axis = axis(star.y - static_cast<double>(base_y));
+    const auto within = [](double at, double radius) {
+        return std::pair(static_cast<int64_t>(std::ceil(at - radius)),
+                         static_cast<int64_t>(std::floor(at + radius)));
+    };
+    const auto [left, right] = within(star.x, radius_);
+    const auto [low, top] = within(star.y, radius_);
+    Taps of{};
+    of.stride = light_.nx() * per_pixel_ * per_pixel_;
+    for (size_t v = 0; v < taps; ++v)
+        for (size_t u = 0; u < taps; ++u)
+            of.weight[v * taps + u] = static_cast<float>(y_axis.weight[v] * x_axis.weight[u]);
+    float pixels[block * block];
+    for (const Block &part : blocks_) {
+        if (part.brightest <= floor)
+            break;
+        const int64_t block_x = base_x + part.x, block_y = base_y + part.y;
+        const int64_t x0 = std::max({block_x, left, int64_t{0}});
+        const int64_t x1 = std::min({block_x + block - 1, right, image.nx - 1});
+        const int64_t y0 = std::max({block_y, low, first_row});
+        const int64_t y1 = std::min({block_y + block - 1, top, last_row});
+        const auto is_inside = [inner](int64_t pixel, double centre) {
+            return std::abs(static_cast<double>(pixel) - centre) <= inner;
+        };
+        if (x0 > x1 || y0 > y1 ||
+            (is_inside(x0, star.x) && is_inside(x1, star.x) && is_inside(y0, star.y) &&
+             is_inside(y1, star.y)))
+            continue;
+        for (size_t v = 0; v < taps; ++v)
+            for (size_t u = 0; u < taps; ++u)
+                of.first[v * taps + u] = &light_(
+                    part.x + x_axis.pixel[u],
+                    ((part.y + y_axis.pixel[v]) * per_pixel_ + y_axis.phase[v]) * per_pixel_ +
+                        x_axis.phase[u]);
+        sum(of, pixels);
+        for (int64_t y = y0; y <= y1; ++y)
+            for (int64_t x = x0; x <= x1; ++x)
+                if (!is_inside(y, star.y) || !is_inside(x, star.x))
+                    image(x, y) += static_cast<T>(
+                        star.flux *
+                        static_cast<double>(pixels[(y - block_y) * block + x - block_x]));
     }
 }
 
-std::array<std::pair<double, double>, 4> FarTables::corners(const Region &image) {
-    return {std::pair(image.x0, image.y0), std::pair(image.x1, image.y0),
-            std::pair(image.x0, image.y1), std::pair(image.x1, image.y1)};
+std::vector<std::pair<double, double>> FarTables::places(const Region &image, bool varies) {
+    const auto at = [&image](int i, int j) {
+        return std::pair(std::lerp(image.x0, image.x1, (1 + i) / 2.0),
+                         std::lerp(image.y0, image.y1, (1 + j) / 2.0));
+    };
+    std::vector<std::pair<double, double>> places{at(0, 0)};
+    for (int j = -1; j <= 1 && varies; ++j)
+        for (int i = -1; i <= 1; ++i)
+            if (i != 0 || j != 0)
+                places.push_back(at(i, j));
+    return places;
 }
 
-FarTable FarTables::of_cell(size_t cell) const {
-    if (tables_.size() == 1)
-        return tables_[0];
-    const auto middle = [this](size_t part) {
-        return (static_cast<double>(part) + 0.5) / static_cast<double>(across_);
+FarTables::FarTables(std::span<const FarLight> at_places, const Psf *exact, const Region &image,
+                     double radius, double floor)
+    : image_(image), middle_(sampled_middle(at_places[0], exact, radius, floor), radius) {
+    if (at_places.size() == 1)
+        return;
+    SampledLight from(per_pixel_of_differences, radius);
+    from.add(at_places[0], at_places[0].nearest(), floor);
+    for (const FarLight &light : at_places.subspan(1))
+        differences_.emplace_back(sampled_difference(light, from, radius, floor), radius);
+}
+
+template <class T>
+void FarTables::add(const Star &star, double x, double y, double inner, double floor, View<T> image,
+                    int64_t first_row, int64_t last_row) const {
+    middle_.add(star, inner, floor, image, first_row, last_row);
+    if (differences_.empty())
+        return;
+    constexpr double little = 0.1; // of the floor
+    const auto scaled = [](double at, double low, double high) {
+        return std::clamp(2 * (at - low) / (high - low) - 1, -1.0, 1.0);
     };
-    const double u = middle(cell % across_), v = middle(cell / across_);
-    return FarTable::mixed(tables_, std::array{(1 - u) * (1 - v), u * (1 - v), (1 - u) * v, u * v});
+    const auto along_x = quadratics(scaled(x, image_.x0, image_.x1));
+    const auto along_y = quadratics(scaled(y, image_.y0, image_.y1));
+    auto difference = differences_.begin();
+    for (size_t j = 0; j < along_y.size(); ++j)
+        for (size_t i = 0; i < along_x.size(); ++i) {
+            if (i == 1 && j == 1) // the middle
+                continue;
+            const double weight = along_y[j] * along_x[i];
+            if (weight != 0)
+                difference->add({star.x, star.y, weight * star.flux}, inner,
+                                little * floor / std::abs(weight), image, first_row, last_row);
+            ++difference;
+        }
 }
 
 template void FarTable::add(const Star &, double, double, View<float>, int64_t, int64_t) const;
 template void FarTable::add(const Star &, double, double, View<double>, int64_t, int64_t) const;
+template void FarTables::add(const Star &, double, double, double, double, View<float>, int64_t,
+                             int64_t) const;
+template void FarTables::add(const Star &, double, double, double, double, View<double>, int64_t,
+                             int64_t) const;
 
 } // namespace wfpsf

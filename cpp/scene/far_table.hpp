@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Far light that many stars share: tabulated around the star once, then drawn on those blocks of
-// pixels alone that are bright enough.
+// The light far from a star that all stars of a colour share: tabulated once, then drawn on those
+// blocks of pixels alone that are bright enough.
 #pragma once
 
 #include "image/view.hpp"
 #include "optics/far_light.hpp"
+#include "optics/psf.hpp"
 #include "optics/varying_psf.hpp"
 
-#include <algorithm>
-#include <array>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -16,58 +15,70 @@
 
 namespace wfpsf {
 
+// Light about a star that stands in the middle, as a fraction of all of it in a native pixel at each
+// sample.
+struct SampledLight {
+    int64_t per_pixel;   // samples a native pixel
+    int64_t half;        // native pixels from the star to the borders
+    Plane<float> sample; // the star's is at half * per_pixel along both axes
+
+    SampledLight(int64_t samples, double radius); // a native pixel; native pixels
+    // Far light beyond `inner`; what is below `floor` may be missing.
+    void add(const FarLight &light, double inner, double floor);
+    // A PSF out to its radius.
+    void add(const Psf &psf);
+};
+
 class FarTable {
   public:
-    // Out to `radius` native pixels; nothing where the far light does not reach inwards, and what
-    // is below `floor`, a share of the light, may be missing.
-    FarTable(const FarLight &light, double radius, double floor);
+    FarTable(SampledLight light, double radius);
+    double radius() const { return radius_; }
 
-    // The sum of tables of one size, each `weights` times, 0 or more.
-    static FarTable mixed(std::span<const FarTable> tables, std::span<const double> weights);
-
-    // Adds a star's far light to rows first_row..last_row of an image of native pixels, but for the
-    // pixels within `inner` of it along both axes; `floor` is a share of the light.
+    // Adds a star's light to rows first_row..last_row of an image of native pixels, between `inner`
+    // and the table's radius along either axis, where there is more than `floor` of it. That is a
+    // share of the star's light.
     template <class T>
     void add(const Star &star, double inner, double floor, View<T> image, int64_t first_row,
              int64_t last_row) const;
 
   private:
-    static constexpr int64_t per_pixel = 3, block = 8; // samples a native pixel; native pixels
-
-    int64_t half_; // blocks from the star to the table's end
+    int64_t per_pixel_, half_;
+    double radius_;
+    // Spline coefficients, those of a row of one phase side by side:
+    // coefficient (x * per_pixel + u, y * per_pixel + v) at (x, (y * per_pixel + v) * per_pixel + u).
     Plane<float> light_;
-    std::vector<float> brightest_; // by block
+    struct Block { // of some native pixels along both axes
+        double brightest;
+        int64_t x, y; // of its first pixel, from the star's pixel
+    };
+    std::vector<Block> blocks_; // the brightest first
 };
 
-// Far light all over an image: tables of its four corners, mixed by nearness; or one, where it is the
-// same everywhere.
+// All over an image: the light of its middle, and how that of other places differs, as a polynomial
+// through 3 x 3 places.
 class FarTables {
   public:
-    FarTables(std::vector<FarTable> of_corners, const Region &image)
-        : tables_(std::move(of_corners)), image_(image),
-          across_(tables_.size() == 1 ? 1 : cells_across) {}
+    // Places of far light that tables are made from: the middle of the image first; that alone,
+    // where light is the same everywhere.
+    static std::vector<std::pair<double, double>> places(const Region &image, bool varies);
 
-    // The image is cut into cells that share a table.
-    size_t cells() const { return across_ * across_; }
-    size_t cell_of(double x, double y) const {
-        return part(y, image_.y0, image_.y1) * across_ + part(x, image_.x0, image_.x1);
-    }
-    FarTable of_cell(size_t cell) const;
+    // `exact`, if there is one, is the PSF of the first place, and stands for its far light as far
+    // as it reaches: from the pupil's edges then come the differences alone.
+    FarTables(std::span<const FarLight> at_places, const Psf *exact, const Region &image,
+              double radius, double floor);
 
-    // (x0, y0), (x1, y0), (x0, y1), (x1, y1).
-    static std::array<std::pair<double, double>, 4> corners(const Region &image);
+    double radius() const { return middle_.radius(); }
+
+    // As FarTable::add(), for a star that stands at (x, y) of the detector.
+    template <class T>
+    void add(const Star &star, double x, double y, double inner, double floor, View<T> image,
+             int64_t first_row, int64_t last_row) const;
+    const FarTable &middle() const { return middle_; } // of the first place
 
   private:
-    static constexpr size_t cells_across = 8;
-
-    size_t part(double at, double low, double high) const {
-        const auto last = static_cast<double>(across_ - 1);
-        return static_cast<size_t>(std::clamp((at - low) / (high - low) * (last + 1), 0.0, last));
-    }
-
-    std::vector<FarTable> tables_;
     Region image_;
-    size_t across_;
+    FarTable middle_;
+    std::vector<FarTable> differences_; // of the other places
 };
 
 } // namespace wfpsf

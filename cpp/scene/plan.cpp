@@ -2,6 +2,7 @@
 #include "scene/plan.hpp"
 
 #include "scene/cost.hpp"
+#include "scene/far_table.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -90,6 +91,12 @@ double change_over(const Region &region, const SceneOptics &optics, const Light 
     return change;
 }
 
+// What exact far light is made to, so that the brightest stars are off by a small part of the budget.
+double exact_far_eps(double brightest, const ColourFacts &facts, const SceneBudget &budget) {
+    const double eps = 0.5 * budget.error() / (facts.profile.peak() * brightest);
+    return std::clamp(eps, 1e-10, 1e-4);
+}
+
 // A change of the PSF adds no light: galaxies wider than it blur it away, but for the cusps of high
 // indices. The smallest of the group is half as wide as the largest.
 double after_blur(const SourceGroup &group) {
@@ -159,35 +166,32 @@ void ScenePlan::learn_colours(const SceneOptics &optics) {
         for (const PlannedGroup &planned : planned_)
             if (planned.group.colour == static_cast<int32_t>(c))
                 brightest = std::max(brightest, planned.group.brightest);
-        // Bright stars are seen farther.
-        const auto look = [&] {
+        // Bright stars are seen farther; far light is known only if it matters.
+        const auto matters_beyond = [&] {
             facts.profile = LightProfile(make_psfs(middle, {&light, 1}, settings)[0]);
-            return brightest * facts.profile.brightest_beyond(facts.profile.seen());
+            return brightest * facts.profile.brightest_beyond(facts.profile.seen()) >
+                   0.5 * budget_.error();
         };
-        if (look() > budget_.error()) {
+        bool is_bright = matters_beyond();
+        if (is_bright) {
             settings.radius = 64;
-            look();
+            is_bright = matters_beyond();
         }
         facts.bandwidth = bandwidth_of(light);
         facts.varies = optics.varies;
-        // Far light is known only if it matters.
-        const double seen = facts.profile.seen();
-        if (brightest * facts.profile.brightest_beyond(seen) < 0.1 * budget_.error())
+        if (!is_bright)
             continue;
-        if (auto far = far_light_of(middle, light, settings)) {
-            facts.far_light = std::make_shared<const FarLight>(std::move(*far));
-            const double from = 0.75 * seen;
-            facts.far.emplace(*facts.far_light,
-                              std::min(1.0, facts.profile.brightest_beyond(from) /
-                                                facts.far_light->brightest_beyond(from)));
-            if (optics.varies) {
-                facts.far_corner = std::make_shared<const FarLight>(
-                    optics.nearest(image_.x0, image_.y0), light, settings);
-                // What mixing the corners' leaves of the difference.
-                constexpr double mixed = 0.2;
-                facts.far_varies = mixed * far_difference(*facts.far_light, *facts.far_corner);
-            }
-        }
+        for (const auto &[x, y] : FarTables::places(region(), optics.varies))
+            if (auto there = far_light_of(optics.nearest(x, y), light, settings))
+                facts.far_lights.push_back(std::move(*there));
+        if (facts.far_lights.empty())
+            continue;
+        const FarLight &far = facts.far_lights[0];
+        const double from = 0.75 * facts.profile.seen();
+        facts.far.emplace(
+            far, std::min(1.0, facts.profile.brightest_beyond(from) / far.brightest_beyond(from)));
+        for (const FarLight &other : facts.far_lights)
+            facts.far_varies = std::max(facts.far_varies, far_difference(far, other));
     }
 }
 
@@ -226,32 +230,72 @@ void ScenePlan::collect_offers() {
     for (size_t g = 0; g < planned_.size(); ++g) {
         const SourceGroup &group = planned_[g].group;
         const Ways ways(group, colours_[static_cast<size_t>(group.colour)], budget_, image_);
-        ways.of_own([&](const Offer &offer) { add_useful(alone_[g], offer); });
+        ways.of_own({}, [&](const Offer &offer) { add_useful(alone_[g], offer); });
         ways.of_fourier(cell_error_[g], [&](const Offer &offer) { add_useful(alone_[g], offer); });
     }
-    by_model_.assign(colours_.size(), {});
-    for (size_t colour = 0; colour < colours_.size(); ++colour) {
-        const ColourFacts &facts = colours_[colour];
-        const auto add_model = [&](const SharedModel &model) {
-            ModelOffers &offers = by_model_[colour].emplace_back();
-            offers.model = model;
-            offers.by_group.resize(planned_.size());
-            for (size_t g = 0; g < planned_.size(); ++g)
-                if (planned_[g].group.colour == static_cast<int32_t>(colour))
-                    Ways(planned_[g].group, facts, budget_, image_)
-                        .of_shared(model, [&](const Offer &offer) {
-                            if (model.far || offer.way.far == 0)
-                                add_useful(offers.by_group[g], offer);
-                        });
-        };
+    shared_.assign(colours_.size(), {});
+    for (size_t colour = 0; colour < colours_.size(); ++colour)
+        collect_shared(colour);
+}
+
+// Tables that a colour may have.
+std::vector<SharedFarLight> ScenePlan::far_lights(size_t colour) const {
+    const ColourFacts &facts = colours_[colour];
+    std::vector<SharedFarLight> all;
+    if (!facts.far)
+        return all;
+    double brightest = 0;
+    for (const PlannedGroup &planned : planned_)
+        if (planned.group.colour == static_cast<int32_t>(colour))
+            brightest = std::max(brightest, planned.group.densest);
+    const double eps = exact_far_eps(brightest, facts, budget_);
+    // As far out as exact light may be of use.
+    for (const double exact : {0.0, 48.0, 64.0, 96.0, 128.0, 192.0, 256.0, 362.0, 512.0}) {
+        const double radius = std::max(exact, 256.0);
+        const double time = exact > 0 ? cost::psf(exact, eps, facts.bandwidth) : 0;
+        all.push_back({true, exact, eps, radius, cost::far_tables(radius, facts.varies) + time});
+        constexpr double little = 0.1; // of the budget
+        if (brightest * facts.far->error(exact, brightest, budget_.variance) <
+            little * budget_.error())
+            break;
+    }
+    return all;
+}
+
+void ScenePlan::collect_shared(size_t colour) {
+    const ColourFacts &facts = colours_[colour];
+    // Adds what ways(Ways, Take) takes for the groups of the colour.
+    const auto add = [&](std::vector<Offers> &useful, const auto &ways) {
+        for (size_t g = 0; g < planned_.size(); ++g)
+            if (planned_[g].group.colour == static_cast<int32_t>(colour))
+                ways(Ways(planned_[g].group, facts, budget_, image_),
+                     [&](const Offer &offer) { add_useful(useful[g], offer); });
+    };
+    std::vector<SharedFarLight> far_lights{{}}; // none
+    for (const SharedFarLight &far : this->far_lights(colour))
+        far_lights.push_back(far);
+    for (const SharedFarLight &far : far_lights) {
+        std::vector<Offers> own(planned_.size());
+        if (far.needed) {
+            add(own, [&](const Ways &ways, const Take &take) { ways.of_own(far, take); });
+            shared_[colour].push_back({{}, far, own});
+        }
         for (const double eps :
-             {1e-2, 1e-3, 1e-4, 2.5e-5, 1e-5, 3e-6, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10})
-            for (const double radius : {8.0, 16.0, 24.0, 32.0, 48.0, 64.0, 96.0, 128.0}) {
+             {1e-2, 1e-3, 1e-4, 2.5e-5, 1e-5, 3e-6, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10}) {
+            std::vector<Offers> useful = own;
+            double before = 0;
+            for (const double radius :
+                 {8.0, 15.0, 22.0, 27.0, 33.0, 40.0, 48.0, 58.0, 70.0, 101.0, 128.0}) {
+                add(useful, [&](const Ways &ways, const Take &take) {
+                    ways.of_shared(eps, before, radius, {}, take);
+                    if (far.needed)
+                        ways.of_shared(eps, before, radius, far, take);
+                });
+                before = radius;
                 const double time = cost::shared_psf(radius, eps, facts.bandwidth, facts.varies);
-                add_model({true, false, eps, radius, time});
-                if (facts.far && radius > facts.far->nearest())
-                    add_model({true, true, eps, radius, time + cost::far_tables(facts.varies)});
+                shared_[colour].push_back({{true, eps, radius, time}, far, useful});
             }
+        }
     }
 }
 
@@ -268,27 +312,30 @@ void ScenePlan::settle_colour(int32_t colour, double price) {
             best.consider(offer);
     }
     std::vector<Best> taken;
-    SharedModel chosen;
+    SharedModel model;
+    SharedFarLight far;
     double least = INFINITY;
-    const auto consider = [&](const SharedModel &model, std::span<const Offers> by_group) {
-        double total = model.time_s;
+    const auto consider = [&](const Shared &shared) {
+        double total = shared.model.time_s + shared.far.time_s;
         std::vector<Best> now = without;
         for (size_t i = 0; i < of_colour.size(); ++i) {
-            if (model.needed)
-                for (const Offer &offer : by_group[of_colour[i]])
+            if (!shared.by_group.empty())
+                for (const Offer &offer : shared.by_group[of_colour[i]])
                     now[i].consider(offer);
             total += now[i].total(now[i].offer());
         }
         if (total < least) {
             least = total;
             taken = std::move(now);
-            chosen = model;
+            model = shared.model;
+            far = shared.far;
         }
     };
-    consider({}, {});
-    for (const ModelOffers &offers : by_model_[static_cast<size_t>(colour)])
-        consider(offers.model, offers.by_group);
-    models_[static_cast<size_t>(colour)] = chosen;
+    consider({});
+    for (const Shared &shared : shared_[static_cast<size_t>(colour)])
+        consider(shared);
+    models_[static_cast<size_t>(colour)] = model;
+    far_[static_cast<size_t>(colour)] = far;
     for (size_t i = 0; i < of_colour.size(); ++i) {
         const Offer &offer = taken[i].offer();
         PlannedGroup &planned = planned_[of_colour[i]];
@@ -298,10 +345,11 @@ void ScenePlan::settle_colour(int32_t colour, double price) {
 
 void ScenePlan::settle(double price) {
     models_.assign(colours_.size(), {});
+    far_.assign(colours_.size(), {});
     time_s_ = 0;
     for (size_t colour = 0; colour < colours_.size(); ++colour) {
         settle_colour(static_cast<int32_t>(colour), price);
-        time_s_ += models_[colour].time_s;
+        time_s_ += models_[colour].time_s + far_[colour].time_s;
     }
     std::vector<PixelError> errors;
     for (const PlannedGroup &planned : planned_) {
@@ -333,16 +381,22 @@ void ScenePlan::choose() {
 // The sources; a batch of stars; models and tables; a PSF drawn by itself.
 int64_t ScenePlan::memory() const {
     constexpr double samples = 8 * 16; // bytes of a native pixel's samples
-    double bytes = static_cast<double>(sources_.size() * sizeof(PlacedSource)) + 12e6;
+    const auto area = [](double radius) { return 4 * radius * radius; };
+    const double held = static_cast<double>(sources_.size() * sizeof(PlacedSource)) + 12e6;
+    double shared = 0, alone = 0;
     for (const SharedModel &model : models_)
         if (model.needed)
-            bytes += 12 * samples * 4 * model.radius * model.radius;
-    for (const PlannedGroup &planned : planned_) {
-        const double radius = std::min(planned.way.radius, Way::largest_field);
+            shared += 12 * samples * area(model.radius);
+    for (const SharedFarLight &far : far_)
+        if (far.needed) {
+            shared += samples * area(far.radius);
+            alone = std::max(alone, 4 * samples * area(far.exact_radius));
+        }
+    for (const PlannedGroup &planned : planned_)
         if (planned.way.drawing == Drawing::own)
-            bytes = std::max(bytes, 4 * samples * 4 * radius * radius);
-    }
-    return static_cast<int64_t>(bytes);
+            alone = std::max(alone,
+                             4 * samples * area(std::min(planned.way.radius, Way::largest_field)));
+    return static_cast<int64_t>(held + shared + alone);
 }
 
 std::string ScenePlan::text() const {
@@ -358,6 +412,10 @@ std::string ScenePlan::text() const {
         if (models_[c].needed)
             add("colour %zu: PSF of the detector, eps %.0e, radius %g pixels, %.3g s\n", c,
                 models_[c].eps, models_[c].radius, models_[c].time_s);
+    for (size_t c = 0; c < far_.size(); ++c)
+        if (far_[c].needed)
+            add("colour %zu: tables of far light, exact to %g pixels, %.3g s\n", c,
+                far_[c].exact_radius, far_[c].time_s);
     if (galaxy_cells_ > 1)
         add("galaxies: PSFs of %d x %d parts of the detector\n", galaxy_cells_, galaxy_cells_);
     add("%6s %6s %10s %9s %8s %7s %7s %7s %9s %9s\n", "colour", "kind", "flux >=", "sources", "PSF",

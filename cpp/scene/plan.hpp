@@ -55,7 +55,9 @@ class ScenePlan {
     const PlannedGroup &group_of(const PlacedSource &source) const {
         return planned_[group_index(source)];
     }
-    const std::vector<SharedModel> &models() const { return models_; } // by colour
+    // By colour.
+    const std::vector<SharedModel> &models() const { return models_; }
+    const std::vector<SharedFarLight> &far() const { return far_; }
     const ColourFacts &colour(int32_t colour) const {
         return colours_[static_cast<size_t>(colour)];
     }
@@ -75,6 +77,8 @@ class ScenePlan {
     void learn_colours(const SceneOptics &optics);
     void choose_galaxy_cells(const SceneOptics &optics);
     void collect_offers();
+    void collect_shared(size_t colour);
+    std::vector<SharedFarLight> far_lights(size_t colour) const;
     void settle(double price);
     void settle_colour(int32_t colour, double price);
     void choose();
@@ -88,12 +92,14 @@ class ScenePlan {
     std::vector<PlannedGroup> planned_;
     std::vector<double> cell_error_;        // of groups of galaxies, by their PSF's place
     std::vector<std::vector<Offer>> alone_; // by group: without a shared model
-    struct ModelOffers {
+    struct Shared {
         SharedModel model;
+        SharedFarLight far;
         std::vector<std::vector<Offer>> by_group;
     };
-    std::vector<std::vector<ModelOffers>> by_model_; // by colour
+    std::vector<std::vector<Shared>> shared_; // by colour: what its groups may share
     std::vector<SharedModel> models_;
+    std::vector<SharedFarLight> far_; // by colour
     int galaxy_cells_ = 1;
     double time_s_ = 0, error_ = 0;
 };

@@ -48,6 +48,28 @@ class Frame {
     double n_;
 };
 
+// The pixels of an image within a radius of a star along both axes, and the star there.
+template <class T> struct Window {
+    View<T> part;
+    Star star;
+
+    Window(const Star &of, double radius, View<T> image) : star(of) {
+        const auto range = [radius](double at, int64_t size) {
+            const auto last = static_cast<double>(size);
+            return std::pair{
+                static_cast<int64_t>(std::ceil(std::clamp(at - radius, 0.0, last))),
+                static_cast<int64_t>(std::floor(std::clamp(at + radius, -1.0, last - 1)))};
+        };
+        const auto [x0, x1] = range(of.x, image.nx);
+        const auto [y0, y1] = range(of.y, image.ny);
+        if (x0 > x1 || y0 > y1)
+            return;
+        part = {&image(x0, y0), x1 - x0 + 1, y1 - y0 + 1, image.stride_x, image.stride_y};
+        star.x -= static_cast<double>(x0);
+        star.y -= static_cast<double>(y0);
+    }
+};
+
 template <class T> class Renderer {
   public:
     Renderer(const SceneOptics &optics, const ScenePlan &plan, View<T> image, int threads,
@@ -77,33 +99,33 @@ template <class T> class Renderer {
                     Manners{manners_.progress.between(0, 0.2), manners_.memory_limit});
                 report_.exact_psfs += models_[colour]->exact_psfs();
             }
-            make_far_tables(static_cast<int32_t>(colour));
+            make_far_tables(colour);
         }
         report_.models_s = clock.seconds();
     }
 
-    // As far as the faintest that any group draws.
-    void make_far_tables(int32_t colour) {
-        double floor = INFINITY;
-        for (const PlannedGroup &g : plan_.groups())
-            if (g.group.colour == colour && g.way.far > 0 && g.way.drawing == Drawing::shared)
-                floor = std::min(floor, g.way.far);
-        if (!std::isfinite(floor))
+    // Down to the faintest that any group draws.
+    void make_far_tables(size_t colour) {
+        const SharedFarLight &far = plan_.far()[colour];
+        if (!far.needed)
             return;
         constexpr double below = 0.1; // light that sums of it must not count
-        const ColourFacts &facts = plan_.colour(colour);
-        const double radius = std::min(facts.far->radius(floor), Way::largest_table);
-        const auto c = static_cast<size_t>(colour);
-        std::vector<FarTable> tables;
-        tables.emplace_back(optics_.varies ? *facts.far_corner : *facts.far_light, radius,
-                            below * floor);
-        const auto corners = FarTables::corners(plan_.region());
-        if (optics_.varies)
-            for (const auto &[x, y] : std::span(corners).subspan(1))
-                tables.emplace_back(FarLight(optics_.nearest(x, y), optics_.lights[c],
-                                             probe_settings(optics_.settings)),
-                                    radius, below * floor);
-        tables_[c].emplace(std::move(tables), plan_.region());
+        double floor = INFINITY;
+        for (const PlannedGroup &g : plan_.groups())
+            if (g.group.colour == static_cast<int32_t>(colour) && g.way.far > 0)
+                floor = std::min(floor, below * g.way.far);
+        if (!std::isfinite(floor))
+            return;
+        const ColourFacts &facts = plan_.colour(static_cast<int32_t>(colour));
+        std::optional<Psf> exact;
+        if (far.exact_radius > 0) {
+            const auto [x, y] = FarTables::places(plan_.region(), false)[0];
+            exact.emplace(std::move(make_psfs(optics_.nearest(x, y), {&optics_.lights[colour], 1},
+                                              settings(far.exact_eps, far.exact_radius))[0]));
+            ++report_.exact_psfs;
+        }
+        tables_[colour].emplace(facts.far_lights, exact ? &*exact : nullptr, plan_.region(),
+                                far.radius, floor);
     }
 
     // What came of the plan's tolerances.
@@ -142,6 +164,7 @@ template <class T> class Renderer {
                     draw_shared(part, static_cast<int32_t>(colour));
         }
         draw_faint_light();
+        draw_far();
         report_.shared_s = clock.seconds();
     }
 
@@ -169,54 +192,58 @@ template <class T> class Renderer {
     void draw_shared(std::span<const PlacedSource> sources, int32_t colour) {
         std::vector<Star> stars;
         std::vector<StarDetail> details;
-        std::vector<double> far; // floors
-        double low = INFINITY, high = -INFINITY;
         for (const PlacedSource &source : sources) {
             if (source.colour != colour || source.flux == 0)
                 continue;
-            const size_t group = plan_.group_index(source);
-            const Way &way = plan_.groups()[group].way;
-            if (way.drawing != Drawing::shared)
-                continue;
-            const double reach = way.far > 0 ? Way::largest_table : way.radius;
+            const Way &way = plan_.group_of(source).way;
             const Star star = frame_.star(source);
-            if (!frame_.reaches(star, reach))
+            if (way.drawing != Drawing::shared || !frame_.reaches(star, way.radius))
                 continue;
             stars.push_back(star);
             details.push_back({way.radius, way.left_out});
-            far.push_back(way.far);
-            const double samples = reach * static_cast<double>(plan_.image().oversampling);
-            low = std::min(low, star.y - samples);
-            high = std::max(high, star.y + samples);
         }
-        if (stars.empty())
-            return;
         report_.drawn += static_cast<int64_t>(stars.size());
-        const auto c = static_cast<size_t>(colour);
-        models_[c]->add(std::span<const Star>(stars), details, plan_.image().x0, plan_.image().y0,
-                        plan_.image().oversampling, image_, threads_);
-        if (tables_[c])
-            draw_far(stars, details, far, *tables_[c], low, high);
+        models_[static_cast<size_t>(colour)]->add(std::span<const Star>(stars), details,
+                                                  plan_.image().x0, plan_.image().y0,
+                                                  plan_.image().oversampling, image_, threads_);
     }
 
-    // Beyond the stamps, cell by cell.
-    void draw_far(std::span<const Star> stars, std::span<const StarDetail> details,
-                  std::span<const double> floors, const FarTables &tables, double low,
-                  double high) {
-        std::vector<std::vector<size_t>> by_cell(tables.cells());
-        for (size_t i = 0; i < stars.size(); ++i)
-            if (floors[i] > 0)
-                by_cell[tables.cell_of(plan_.image().x0 + stars[i].x,
-                                       plan_.image().y0 + stars[i].y)]
-                    .push_back(i);
-        for (size_t cell = 0; cell < by_cell.size(); ++cell) {
-            if (by_cell[cell].empty())
-                continue;
-            const FarTable table = tables.of_cell(cell);
-            on_rows(low, high, [&](int64_t first_row, int64_t last_row) {
-                for (const size_t i : by_cell[cell])
-                    table.add(stars[i], details[i].radius, floors[i], image_, first_row, last_row);
-            });
+    // Beyond the stamps.
+    void draw_far() {
+        struct FarStar {
+            Star star;
+            const PlacedSource *source;
+            const Way *way;
+            const FarTables *tables;
+        };
+        std::vector<FarStar> stars, own;
+        for (const PlacedSource &source : plan_.sources()) {
+            const Way &way = plan_.group_of(source).way;
+            if (way.far > 0 && source.flux != 0)
+                (way.own_far ? own : stars)
+                    .push_back({frame_.star(source), &source, &way,
+                                &*tables_[static_cast<size_t>(source.colour)]});
+        }
+        on_rows(0, static_cast<double>(image_.ny), [&](int64_t first_row, int64_t last_row) {
+            for (const auto &[star, source, way, tables] : stars)
+                tables->add(star, source->x, source->y, way->radius, way->far, image_, first_row,
+                            last_row);
+            for (const auto &[star, source, way, tables] : own)
+                tables->middle().add(star, way->radius, way->far, image_, first_row, last_row);
+        });
+        // How the far light of their places differs from that of the tables, and what is beyond.
+        for (const auto &[star, source, way, tables] : own) {
+            const double floor = way->far * std::abs(star.flux);
+            const auto colour = static_cast<size_t>(source->colour);
+            FarLight(optics_.nearest(source->x, source->y), optics_.lights[colour],
+                     probe_settings(optics_.settings))
+                .add(star, way->radius, floor, image_, threads_);
+            const Window<T> within(star, tables->radius(), image_);
+            if (!within.part.empty())
+                plan_.colour(source->colour)
+                    .far_lights[0]
+                    .add({within.star.x, within.star.y, -star.flux}, way->radius, floor,
+                         within.part, threads_);
         }
     }
 
@@ -297,9 +324,8 @@ template <class T> class Renderer {
         std::vector<const PlacedSource *> own;
         for (const PlacedSource &source : plan_.sources()) {
             const Way &way = plan_.group_of(source).way;
-            const double reach = way.far > 0 ? INFINITY : way.radius;
             if (way.drawing == Drawing::own && source.flux != 0 &&
-                frame_.reaches(frame_.star(source), reach))
+                frame_.reaches(frame_.star(source), way.radius))
                 own.push_back(&source);
         }
         report_.drawn += static_cast<int64_t>(own.size());
@@ -331,27 +357,12 @@ template <class T> class Renderer {
         const Way &way = plan_.group_of(source).way;
         const int64_t n = plan_.image().oversampling;
         const Star star = frame_.star(source);
-        if (way.far > 0)
-            far_light_of(optics_.nearest(source.x, source.y),
-                         optics_.lights[static_cast<size_t>(source.colour)],
-                         probe_settings(optics_.settings))
-                ->add(star, way.radius, way.far * std::abs(star.flux), image_, threads_);
         if (way.radius <= Way::largest_field) {
             psf.add(std::span(&star, 1), n, image_, threads_);
             return;
         }
-        const double reach = way.radius * static_cast<double>(n);
-        const auto window = [reach](double at, int64_t size) {
-            const auto last = static_cast<double>(size - 1);
-            return std::pair{static_cast<int64_t>(std::ceil(std::clamp(at - reach, 0.0, last))),
-                             static_cast<int64_t>(std::floor(std::clamp(at + reach, 0.0, last)))};
-        };
-        const auto [x0, x1] = window(star.x, image_.nx);
-        const auto [y0, y1] = window(star.y, image_.ny);
-        const View<T> part{&image_(x0, y0), x1 - x0 + 1, y1 - y0 + 1, image_.stride_x,
-                           image_.stride_y};
-        psf.draw({star.x - static_cast<double>(x0), star.y - static_cast<double>(y0), star.flux}, n,
-                 part, Psf::Drawing::adds, manners_);
+        const Window<T> within(star, way.radius * static_cast<double>(n), image_);
+        psf.draw(within.star, n, within.part, Psf::Drawing::adds, manners_);
     }
 
     PsfSettings settings(double eps, double radius) const {

@@ -16,8 +16,15 @@ namespace {
 constexpr double negligible = 0.01;
 
 // What PSFs are off and lack is no larger than that, of what they may be: those of the whole
-// detector, and exact ones (tests/unit/optics).
+// detector, exact ones, and far light (tests/unit/optics).
 constexpr double of_bound = 0.3, of_exact = 0.05;
+double of_far(double radius) {
+    return std::min(0.5, 50 / radius);
+}
+
+// Tables of far light are that share of the light off, and more, the more it differs from place to
+// place. Such differences are off by as much of what far light is off itself.
+constexpr double interpolated = 1e-4, mixed = 0.02, of_differences = 0.05;
 
 // PSFs of one place are some share of the light off those of others near by.
 constexpr double differs = 0.1;
@@ -112,41 +119,66 @@ PixelError Ways::left_out(const Way &way) const {
                 mean(colour_.profile.beyond(FaintLight::reach), cut(FaintLight::reach))};
 }
 
-void Ways::with_and_without_far(const Way &way, double time_s, const Take &take) const {
+void Ways::leave_far(const Way &way, double time_s, const Take &take) const {
     const double of_psf = psf_error(group_, colour_, budget_, way);
     const double beyond = way.radius >= group_.reach ? 0 : colour_.profile.beyond(way.radius);
-    if (beyond <= budget_.flux) {
-        const PixelError error = left_out(way);
-        take({way, time_s, {error.local + of_psf, error.mean}});
-    }
-    // Tables are interpolated, and need some light within the stamp.
-    if (!colour_.far || image_.oversampling != 1 || way.radius < colour_.far->nearest() + 1 ||
-        way.radius >= group_.reach)
+    if (beyond > budget_.flux)
         return;
-    const FarReach &far = *colour_.far;
-    const bool own = way.drawing == Drawing::own;
-    const double varies =
-        own ? 0 : colour_.far_varies * colour_.profile.brightest_beyond(way.radius);
-    const double off = far.error(way.radius, group_.brightest, budget_.variance) + varies;
-    for (const FarReach::Step &step : far.steps()) {
-        if (2 * group_.densest * step.floor < negligible * budget_.error())
-            break;
-        // A table ends somewhere; drawn by itself, far light goes on.
-        const double end =
-            own ? std::min(step.radius, group_.reach) : std::min(step.radius, Way::largest_table);
-        if (end <= way.radius)
-            continue;
-        const double left = std::max(step.floor, end < step.radius ? far.brightest_beyond(end) : 0);
-        const double light = colour_.profile.beyond(std::min(std::max(step.halo, way.radius), end));
-        if (light > budget_.flux)
-            continue;
+    const PixelError error = left_out(way);
+    take({way, time_s, {error.local + of_psf, error.mean}});
+}
+
+// What far light is off beyond the stamps, as a share of a star's light; in units of the noise,
+// where its own adds to that.
+double Ways::far_off(const SharedFarLight &far, const Way &way) const {
+    const auto of_edges = [this](double r) {
+        return of_far(r) * colour_.far->error(r, group_.brightest, budget_.variance);
+    };
+    const double brightest = colour_.far->brightest_beyond(way.radius);
+    const double noise = std::sqrt(1 + group_.brightest * brightest / budget_.variance);
+    const double of_tables =
+        (interpolated + (way.own_far ? 0 : mixed * std::pow(colour_.far_varies, 1.5))) * brightest /
+        noise;
+    if (far.exact_radius <= way.radius)
+        return of_edges(way.radius) + of_tables;
+    const double exact = of_exact * far.exact_eps * colour_.profile.peak();
+    const double differences = colour_.varies ? of_differences * of_edges(way.radius) : 0;
+    return std::max(differences, of_edges(far.exact_radius)) + of_tables + exact;
+}
+
+void Ways::add_far(const Way &way, double time_s, const SharedFarLight &far,
+                   const Take &take) const {
+    const FarReach &reach = *colour_.far;
+    if (way.radius < reach.nearest() + 1 || way.radius >= group_.reach)
+        return;
+    const double of_psf = psf_error(group_, colour_, budget_, way);
+    for (const bool own_far : {false, true}) {
         Way with = way;
-        with.far = step.floor;
-        const double time = own ? cost::making_far_light + cost::far_light(pixels(end))
-                                : cost::far_blocks(step.pixels);
-        take({with,
-              time_s + count() * time,
-              {group_.densest * (left + off) + of_psf, mean(light, left)}});
+        with.own_far = own_far;
+        const double off = far_off(far, with);
+        for (const FarReach::Step &step : reach.steps()) {
+            if (group_.densest * step.floor > budget_.error())
+                continue;
+            if (2 * group_.densest * step.floor < negligible * budget_.error())
+                break;
+            // A table ends somewhere.
+            const double tables_end = std::min({step.radius, far.radius, group_.reach});
+            const double end = own_far ? std::min(step.radius, group_.reach) : tables_end;
+            const double left =
+                std::max(step.floor, end < step.radius ? reach.brightest_beyond(end) : 0);
+            const double light =
+                colour_.profile.beyond(std::min(std::max(step.halo, way.radius), end));
+            if (end <= way.radius || light > budget_.flux)
+                continue;
+            with.far = step.floor;
+            double time = cost::far_blocks(step.pixels * tables_end / step.radius);
+            if (own_far)
+                time += cost::making_far_light + cost::far_light(pixels(end)) +
+                        cost::far_light(pixels(tables_end));
+            take({with,
+                  time_s + count() * time,
+                  {group_.densest * (left + off) + of_psf, mean(light, left)}});
+        }
     }
 }
 
@@ -161,16 +193,30 @@ double Ways::shared_stamp(double radius, double eps, double left_out) const {
     return stamp + cost::correction(reach, eps);
 }
 
-void Ways::of_shared(const SharedModel &model, const Take &take) const {
+void Ways::of_shared(double eps, double from, double to, const SharedFarLight &far,
+                     const Take &take) const {
     const double peak = colour_.profile.peak();
-    for (const double left_out : falling(colour_.varies ? 1e-2 : model.eps, model.eps / 2, 4))
-        for (const double radius : radii(std::min(model.radius, group_.reach)))
-            with_and_without_far({Drawing::shared, radius, model.eps, peak * left_out, 0},
-                                 count() * shared_stamp(radius, model.eps, peak * left_out), take);
+    const double finest = eps / 2;
+    for (const double share : falling(colour_.varies ? 1e-2 : eps, finest, 4)) {
+        Way way{Drawing::shared, 0, eps, peak * share};
+        if (share > 4 * finest && psf_error(group_, colour_, budget_, way) > budget_.error())
+            continue;
+        for (const double radius : radii(std::min(to, group_.reach))) {
+            if (radius <= from)
+                continue;
+            way.radius = radius;
+            const double time = count() * shared_stamp(radius, eps, way.left_out);
+            if (far.needed)
+                add_far(way, time, far, take);
+            else
+                leave_far(way, time, take);
+        }
+    }
 }
 
-void Ways::of_own(const Take &take) const {
-    for (const double radius : radii(group_.reach))
+void Ways::of_own(const SharedFarLight &far, const Take &take) const {
+    const double largest = far.needed ? std::min(far.radius, group_.reach) : group_.reach;
+    for (const double radius : radii(largest))
         for (const double eps : falling(1e-4, 1e-11, 10)) {
             if (10 * group_.densest * colour_.profile.peak() * eps < negligible * budget_.error())
                 break;
@@ -180,7 +226,11 @@ void Ways::of_own(const Take &take) const {
                 time += cost::large_stamp(pixels(radius), radius, colour_.bandwidth);
             else
                 time += cost::stamp(width(radius), radius, eps);
-            with_and_without_far({Drawing::own, radius, eps, 0, 0}, count() * time, take);
+            const Way way{Drawing::own, radius, eps};
+            if (far.needed)
+                add_far(way, count() * time, far, take);
+            else
+                leave_far(way, count() * time, take);
         }
 }
 
@@ -198,10 +248,8 @@ void Ways::of_fourier(double place_error, const Take &take) const {
             continue;
         const double drawing = cost::galaxy(radius + 8, share), left = mean(light, share);
         const double off = group_.densest * share;
-        take({{Drawing::fourier, radius, share, 0, 0},
-              count() * drawing,
-              {off + place_error, left}});
-        take({{Drawing::fourier_own, radius, share, 0, 0},
+        take({{Drawing::fourier, radius, share}, count() * drawing, {off + place_error, left}});
+        take({{Drawing::fourier_own, radius, share},
               count() * (drawing + cost::otf(colour_.bandwidth)),
               {off, left}});
     }

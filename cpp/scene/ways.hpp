@@ -33,37 +33,45 @@ enum class Drawing {
 
 struct Way {
     Drawing drawing = Drawing::shared;
-    double radius = 0;   // of the stamp, native pixels
-    double eps = 0;      // of the PSF, of its peak; of galaxies, of a pixel as a share of the flux
-    double left_out = 0; // by the shared model: largest share of the light in a pixel
-    double far = 0;      // light beyond the stamp is drawn down to that share; 0: none is
+    double radius = 0;    // of the stamp, native pixels
+    double eps = 0;       // of the PSF, of its peak; of galaxies, of a pixel as a share of the flux
+    double left_out = 0;  // by the shared model: largest share of the light in a pixel
+    double far = 0;       // light beyond the stamp is drawn down to that share; 0: none is
+    bool own_far = false; // it is that of the star's own place, and goes on beyond shared tables
 
     // What the stamps leave out is drawn all the same, as smooth light.
     bool is_smooth_beyond() const { return drawing == Drawing::shared && far == 0; }
 
     // Own PSFs are made out to here; what is farther is drawn straight from the diffraction image.
     static constexpr double largest_field = 512;
-    // Far light that sources share ends here.
-    static constexpr double largest_table = 256;
 };
 
 // A PSF of the whole detector that groups of one colour share.
 struct SharedModel {
     bool needed = false;
-    bool far = false;           // with tables of far light
     double eps = 0, radius = 0; // native pixels
+    double time_s = 0;
+};
+
+// Tables of far light that groups of one colour share.
+struct SharedFarLight {
+    bool needed = false;
+    // Within, it is that of an exact PSF of the detector's middle, and only how other places differ
+    // comes from the pupil's edges; native pixels, 0: all does.
+    double exact_radius = 0;
+    double exact_eps = 0;
+    double radius = 0; // where the tables end, native pixels
     double time_s = 0;
 };
 
 // A colour's PSFs, as far as plans need to know them.
 struct ColourFacts {
     LightProfile profile;
-    double bandwidth = 0;                      // relative; 0: one wavelength
-    bool varies = false;                       // over the detector
-    std::shared_ptr<const FarLight> far_light; // of the detector's middle, if plans may use it
+    double bandwidth = 0;             // relative; 0: one wavelength
+    bool varies = false;              // over the detector
+    std::vector<FarLight> far_lights; // at FarTables::places(), if plans may use them
     std::optional<FarReach> far;
-    std::shared_ptr<const FarLight> far_corner; // of the image's first pixel, where it differs
-    double far_varies = 0; // share of the far light that mixing that of the corners leaves
+    double far_varies = 0; // largest difference between those places, as a share of the brightest
 };
 
 // Errors of a pixel, e-; where a star's own light adds noise, as many as are that share of the
@@ -90,8 +98,12 @@ class Ways {
          const SceneImage &image)
         : group_(group), colour_(colour), budget_(budget), image_(image) {}
 
-    void of_shared(const SharedModel &model, const Take &take) const;
-    void of_own(const Take &take) const;
+    // As stars, with the detector's PSFs made to `eps`, on stamps of radii above `from` up to `to`,
+    // or with PSFs of their own; with far light beyond the stamps, if there are tables of it, else
+    // without.
+    void of_shared(double eps, double from, double to, const SharedFarLight &far,
+                   const Take &take) const;
+    void of_own(const SharedFarLight &far, const Take &take) const;
     // Of galaxies; `place_error`: of a pixel, if the PSF is that of a part of the detector.
     void of_fourier(double place_error, const Take &take) const;
 
@@ -103,8 +115,10 @@ class Ways {
     double cut(double radius) const;
     double mean(double light, double cut) const;
     PixelError left_out(const Way &way) const;
-    // The same stamps without and with far light beyond them.
-    void with_and_without_far(const Way &way, double time_s, const Take &take) const;
+    double far_off(const SharedFarLight &far, const Way &way) const;
+    // What is beyond the stamps.
+    void add_far(const Way &way, double time_s, const SharedFarLight &far, const Take &take) const;
+    void leave_far(const Way &way, double time_s, const Take &take) const;
 
     const SourceGroup &group_;
     const ColourFacts &colour_;
