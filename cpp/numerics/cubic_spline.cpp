@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numerics/cubic_spline.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -9,12 +8,11 @@ namespace wfpsf {
 
 namespace {
 
+constexpr int64_t settled = 16; // runs after which a start is forgotten, to rounding
+
 // Runs of `width` samples, `stride` apart, each filtered along the runs.
 void filter(float *first, int64_t count, int64_t stride, int64_t width) {
-    if (count < 2)
-        return;
     const auto pole = static_cast<float>(std::sqrt(3.0) - 2);
-    constexpr int64_t settled = 16; // runs after which a start is forgotten, to rounding
     const auto run = [=](int64_t i) { return first + i * stride; };
     // to = scale * to + factor * from
     const auto add = [width](float scale, float *to, float factor, const float *from) {
@@ -22,7 +20,7 @@ void filter(float *first, int64_t count, int64_t stride, int64_t width) {
             to[j] = scale * to[j] + factor * from[j];
     };
     float power = 1;
-    for (int64_t i = 1; i < std::min(settled, count); ++i)
+    for (int64_t i = 1; i < settled; ++i)
         add(1, run(0), power *= pole, run(i));
     for (int64_t i = 1; i < count; ++i)
         add(1, run(i), pole, run(i - 1));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cubic B-splines through equally spaced samples (Unser, Aldroubi & Eden 1993, IEEE Trans. Signal
-// Process. 41, 821): four taps along an axis; a wave of f cycles a sample is off by about 2 f^4.
+// Process. 41, 821): four taps along an axis; a wave of f cycles a sample is off by at most 5 f^4.
 #pragma once
 
 #include "image/view.hpp"
@@ -9,7 +9,8 @@
 
 namespace wfpsf {
 
-// Samples become the coefficients of the spline through them; beyond the borders they are mirrored.
+// Samples, 16 or more along each axis, become the coefficients of the spline through them; beyond
+// the borders they are mirrored.
 void to_spline_coefficients(Plane<float> &samples);
 
 // Of coefficients -1, 0, 1, 2 at t of 0..1.

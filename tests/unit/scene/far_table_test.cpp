@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tabulated far light against that of each star's own place.
+// Tabulated far light against far light itself, and against exact PSFs of other places.
 #include "scene/far_table.hpp"
 #include "scenes.hpp"
 
@@ -8,79 +8,104 @@
 namespace wfpsf {
 namespace {
 
-constexpr double radius = 100, floor = 1e-9;
+constexpr double radius = 60, floor = 1e-11;
 constexpr double nearest = 25; // whole pixels beyond where far light begins
+const Region image{0, 0, 4088, 4088};
+const Star star{61.3, 80.8, 1};
 
-Plane<double> drawn_from(const FarTable &table, const Star &star) {
-    Plane<double> image(160, 150);
-    table.add(star, nearest, 10 * floor, image.view(), 0, image.ny() - 1);
-    return image;
+SceneOptics broadband(const char *band, int sca) {
+    return scenes::roman(
+        band, {detected_light(Instrument::get("roman-c9").band(band), black_body_sed(5000))}, sca);
 }
 
-Plane<double> drawn_from(const FarLight &light, const Star &star) {
-    Plane<double> image(160, 150);
-    light.add(star, nearest, star.flux * floor, image.view());
-    return image;
+FarLight far_light(const SceneOptics &optics, double x, double y) {
+    return {optics.nearest(x, y), optics.lights[0], probe_settings(optics.settings)};
 }
 
-// Beyond the table's end nothing is drawn.
-double largest_difference(const Plane<double> &a, const Plane<double> &b, const Star &star) {
+std::vector<FarLight> at_places(const SceneOptics &optics) {
+    std::vector<FarLight> lights;
+    for (const auto &[x, y] : FarTables::places(image, true))
+        lights.push_back(far_light(optics, x, y));
+    return lights;
+}
+
+Psf exact(const SceneOptics &optics, double x, double y) {
+    PsfSettings settings = optics.settings;
+    settings.eps = 1e-6;
+    settings.radius = radius;
+    return std::move(make_psfs(optics.nearest(x, y), {&optics.lights[0], 1}, settings)[0]);
+}
+
+// The largest in pixels that tables draw.
+double largest_difference(const Plane<double> &a, const Plane<double> &b) {
     double most = 0;
     for (int64_t y = 0; y < a.ny(); ++y)
-        for (int64_t x = 0; x < a.nx(); ++x)
-            if (std::abs(static_cast<double>(x) - star.x) < radius &&
-                std::abs(static_cast<double>(y) - star.y) < radius)
+        for (int64_t x = 0; x < a.nx(); ++x) {
+            const double off = std::max(std::abs(static_cast<double>(x) - star.x),
+                                        std::abs(static_cast<double>(y) - star.y));
+            if (off > nearest && off < radius - 1)
                 most = std::max(most, std::abs(a(x, y) - b(x, y)));
+        }
     return most;
 }
 
-const Star star{61.3, 80.8, 1e6};
-
-SceneOptics broadband() {
-    return scenes::roman(
-        "J129", {detected_light(Instrument::get("roman-c9").band("J129"), black_body_sed(5000))});
+Plane<double> drawn_at(const FarTables &tables, double x, double y) {
+    Plane<double> drawn(160, 150);
+    tables.add(star, x, y, nearest, floor, drawn.view(), 0, drawn.ny() - 1);
+    return drawn;
 }
 
-TEST(FarTable, IsTheFarLight) {
-    const SceneOptics optics = broadband();
-    const FarLight light(optics.middle(), optics.lights[0], probe_settings(optics.settings));
-    const double error = largest_difference(drawn_from(FarTable(light, radius, floor), star),
-                                            drawn_from(light, star), star);
-    EXPECT_LE(error, 0.02 * star.flux * light.brightest_beyond(2 * nearest));
+TEST(FarTables, OfFarLightAloneAreThat) {
+    const SceneOptics optics = broadband("J129", 7);
+    const FarLight light = far_light(optics, 2044, 2044);
+    const FarTables tables({&light, 1}, nullptr, image, radius, floor);
+    Plane<double> expected(160, 150);
+    light.add(star, nearest, floor, expected.view());
+    const Plane<double> drawn = drawn_at(tables, -1e9, 3); // the same everywhere
+    const double error = largest_difference(drawn, expected);
+    EXPECT_LE(error, 2e-3 * light.brightest_beyond(2 * nearest));
     EXPECT_GT(error, 0);
 }
 
-// Half way between corners mixing errs most.
-TEST(FarTables, StandForAllPlacesOfAnImage) {
-    const SceneOptics optics = broadband();
-    const PsfSettings settings = probe_settings(optics.settings);
-    const Region image{0, 0, 4088, 4088};
-    std::vector<FarTable> corners;
-    for (const auto &[x, y] : FarTables::corners(image))
-        corners.emplace_back(FarLight(optics.at(x, y), optics.lights[0], settings), radius, floor);
-    const FarTables tables(corners, image);
-    EXPECT_EQ(tables.cells(), 64u);
-    for (const auto &[x, y] : {std::pair(2044.0, 2044.0), std::pair(10.0, 3500.0)}) {
-        const FarLight truth(optics.at(x, y), optics.lights[0], settings);
-        const Plane<double> expected = drawn_from(truth, star);
-        const double brightest = star.flux * truth.brightest_beyond(2 * nearest);
-        const double error = largest_difference(
-            drawn_from(tables.of_cell(tables.cell_of(x, y)), star), expected, star);
-        EXPECT_LE(error, 0.04 * brightest);
-        const double unmixed = largest_difference(drawn_from(corners[0], star), expected, star);
-        EXPECT_LT(2 * error, unmixed); // it helps
+// What plans count on: cpp/scene/ways.cpp.
+TEST(FarTables, StandForExactPsfsOfAllPlaces) {
+    for (const auto &[band, sca] : {std::pair("J129", 7), std::pair("Z087", 3)}) {
+        const SceneOptics optics = broadband(band, sca);
+        const std::vector<FarLight> lights = at_places(optics);
+        const Psf middle = exact(optics, 2044, 2044);
+        const FarTables tables(lights, &middle, image, radius, floor);
+        for (const auto &[x, y] : {std::pair(100.0, 1000.0), std::pair(3100.0, 3200.0)}) {
+            Plane<double> truth(160, 150), of_middle(160, 150);
+            exact(optics, x, y).add({&star, 1}, 1, truth.view(), 1);
+            middle.add({&star, 1}, 1, of_middle.view(), 1);
+            const double error = largest_difference(drawn_at(tables, x, y), truth);
+            EXPECT_LE(error, 3e-3 * lights[0].brightest_beyond(nearest)) << band;
+            EXPECT_LE(5 * error, largest_difference(of_middle, truth)) << band;
+        }
     }
 }
 
-TEST(FarTables, OneIsTheSameEverywhere) {
-    const SceneOptics optics = broadband();
-    const FarLight light(optics.middle(), optics.lights[0], probe_settings(optics.settings));
-    const FarTables tables({FarTable(light, radius, floor)}, {0, 0, 100, 100});
-    EXPECT_EQ(tables.cells(), 1u);
-    EXPECT_EQ(tables.cell_of(1e9, -1e9), 0u);
-    EXPECT_EQ(largest_difference(drawn_from(tables.of_cell(0), star),
-                                 drawn_from(FarTable(light, radius, floor), star), star),
-              0);
+TEST(FarTables, DrawRowsAsTheWholeAndLeaveOutWhatIsFaint) {
+    const SceneOptics optics = broadband("J129", 7);
+    const std::vector<FarLight> lights = at_places(optics);
+    const FarTables tables(lights, nullptr, image, radius, floor);
+    const Plane<double> whole = drawn_at(tables, 900, 3000);
+    Plane<double> rows(160, 150);
+    for (int64_t y = 0; y < rows.ny(); y += 7)
+        tables.add(star, 900, 3000, nearest, floor, rows.view(), y, std::min(y + 6, rows.ny() - 1));
+    constexpr double bright = 1e-6;
+    Plane<double> part(160, 150);
+    tables.add(star, 900, 3000, nearest, bright, part.view(), 0, part.ny() - 1);
+    double left_out = 0, drawn = 0;
+    for (int64_t y = 0; y < rows.ny(); ++y)
+        for (int64_t x = 0; x < rows.nx(); ++x) {
+            ASSERT_EQ(rows(x, y), whole(x, y)) << x << " " << y;
+            left_out = std::max(left_out, std::abs(part(x, y) - whole(x, y)));
+            drawn = std::max(drawn, part(x, y));
+        }
+    EXPECT_LE(left_out, 1.2 * bright);
+    EXPECT_GT(left_out, 0.1 * bright);
+    EXPECT_GT(drawn, 10 * bright);
 }
 
 } // namespace
