@@ -4,9 +4,9 @@
 
 #include "image/view.hpp"
 #include "scene/groups.hpp"
-#include "scene/light_profile.hpp"
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace wfpsf {
@@ -15,22 +15,25 @@ class FaintLight {
   public:
     explicit FaintLight(const SceneImage &image);
 
-    // Sources whose stamps all end at `radius` native pixels: first each, then the light of all.
+    // Sources of which all but the same is drawn elsewhere: first each, then the light of all.
     void add(const PlacedSource &source);
-    void spread(const LightProfile &profile, double radius);
+    // `left_out`: the share of a source's light beyond so many native pixels from it along either
+    // axis that is to be drawn here.
+    void spread(const std::function<double(double radius)> &left_out);
 
     template <class T> void add_to(View<T> image, int64_t first_row, int64_t last_row) const;
 
     // Native pixels from a source to where its light ends.
-    static constexpr double reach = 256;
+    static constexpr double reach = 4096;
 
   private:
     static constexpr int64_t cell = SourceGroup::cell;
     static constexpr auto cells_reached = static_cast<int64_t>(reach) / cell;
 
     const SceneImage &image_;
-    Plane<double> flux_;    // by cell, of the sources at hand
-    Plane<double> density_; // by cell, e- a native pixel, of all sources
+    Plane<double>
+        density_;        // by cell of the image and next to it, e- a native pixel, of all sources
+    Plane<double> flux_; // by cell as far around the image as light reaches, of those at hand
 };
 
 } // namespace wfpsf

@@ -105,12 +105,17 @@ FarTable::FarTable(SampledLight light, double radius)
     for (int64_t b = -blocks; b < blocks; ++b)
         for (int64_t a = -blocks; a < blocks; ++a) {
             float most = 0; // wherever in its pixel the star stands
+            double all = 0;
             for (int64_t y = -per_pixel_; y < block * per_pixel_; ++y)
-                for (int64_t x = -per_pixel_; x < block * per_pixel_; ++x)
-                    most = std::max(most,
-                                    std::abs(light.sample((half_ + a * block) * per_pixel_ + x,
-                                                          (half_ + b * block) * per_pixel_ + y)));
-            blocks_.push_back({static_cast<double>(most), a * block, b * block});
+                for (int64_t x = -per_pixel_; x < block * per_pixel_; ++x) {
+                    const float here = light.sample((half_ + a * block) * per_pixel_ + x,
+                                                    (half_ + b * block) * per_pixel_ + y);
+                    most = std::max(most, std::abs(here));
+                    if (x >= 0 && y >= 0)
+                        all += static_cast<double>(here);
+                }
+            const auto samples = static_cast<double>(per_pixel_ * per_pixel_);
+            blocks_.push_back({static_cast<double>(most), all / samples, a * block, b * block});
         }
     std::ranges::stable_sort(blocks_, std::ranges::greater(), &Block::brightest);
     to_spline_coefficients(light.sample);
@@ -120,6 +125,27 @@ FarTable::FarTable(SampledLight light, double radius)
         for (int64_t x = 0; x < native; ++x)
             for (int64_t u = 0; u < per_pixel_; ++u)
                 light_(x, y * per_pixel_ + u) = light.sample(x * per_pixel_ + u, y);
+}
+
+double FarTable::light(double within, double inner, double floor) const {
+    // How much of a block's area is at most so far from the star.
+    const auto part = [](const Block &of, double radius) {
+        const auto along = [radius](int64_t first) {
+            const auto at = static_cast<double>(first);
+            return std::clamp(std::min(at + block, radius) - std::max(at, -radius), 0.0,
+                              static_cast<double>(block)) /
+                   block;
+        };
+        return along(of.x) * along(of.y);
+    };
+    double sum = 0;
+    for (const Block &of : blocks_) {
+        if (of.brightest <= floor)
+            break;
+        const double inside = part(of, std::min(within, radius_)) - part(of, inner);
+        sum += of.light * std::max(inside, 0.0);
+    }
+    return sum;
 }
 
 template <class T>

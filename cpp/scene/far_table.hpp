@@ -34,6 +34,10 @@ class FarTable {
     FarTable(SampledLight light, double radius);
     double radius() const { return radius_; }
 
+    // The share of the light that add() gives to pixels at most `within` from the star along both
+    // axes, about.
+    double light(double within, double inner, double floor) const;
+
     // Adds a star's light to rows first_row..last_row of an image of native pixels, between `inner`
     // and the table's radius along either axis, where there is more than `floor` of it. That is a
     // share of the star's light.
@@ -47,9 +51,9 @@ class FarTable {
     // Spline coefficients, those of a row of one phase side by side:
     // coefficient (x * per_pixel + u, y * per_pixel + v) at (x, (y * per_pixel + v) * per_pixel + u).
     Plane<float> light_;
-    struct Block { // of some native pixels along both axes
-        double brightest;
-        int64_t x, y; // of its first pixel, from the star's pixel
+    struct Block {               // of some native pixels along both axes
+        double brightest, light; // in a pixel; of all
+        int64_t x, y;            // of its first pixel, from the star's pixel
     };
     std::vector<Block> blocks_; // the brightest first
 };

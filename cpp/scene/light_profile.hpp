@@ -28,7 +28,7 @@ class LightProfile {
     // What is expected in a native pixel, on the average of all directions.
     double mean_at(double radius) const;
     // How much the latter may be off, for all places of a detector.
-    static constexpr double mean_varies = 0.25;
+    static constexpr double mean_varies = 0.05;
 
   private:
     // The PSF of one place stands for those of a detector, whose wings differ a little.

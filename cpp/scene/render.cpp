@@ -168,6 +168,18 @@ template <class T> class Renderer {
         report_.shared_s = clock.seconds();
     }
 
+    // Of a source's light, the share that is not drawn in pixels more than `radius` native ones off.
+    double left_out(const PlannedGroup &planned, double radius) const {
+        const Way &way = planned.way;
+        const double from = std::max(radius, way.radius);
+        const double all = plan_.colour(planned.group.colour).profile.expected_beyond(from);
+        if (way.far == 0)
+            return all;
+        const FarTable &table = tables_[static_cast<size_t>(planned.group.colour)]->middle();
+        return all - table.light(INFINITY, way.radius, way.far) +
+               table.light(from, way.radius, way.far);
+    }
+
     void draw_faint_light() {
         std::vector<std::vector<const PlacedSource *>> of_group(plan_.groups().size());
         for (const PlacedSource &source : plan_.sources()) {
@@ -180,9 +192,9 @@ template <class T> class Renderer {
         for (size_t g = 0; g < of_group.size(); ++g) {
             for (const PlacedSource *source : of_group[g])
                 light.add(*source);
-            const PlannedGroup &planned = plan_.groups()[g];
-            if (!of_group[g].empty())
-                light.spread(plan_.colour(planned.group.colour).profile, planned.way.radius);
+            if (of_group[g].empty())
+                continue;
+            light.spread([&](double radius) { return left_out(plan_.groups()[g], radius); });
         }
         on_rows(0, static_cast<double>(image_.ny), [&](int64_t first_row, int64_t last_row) {
             light.add_to(image_, first_row, last_row);

@@ -95,18 +95,15 @@ double Ways::mean(double light, double cut) const {
     return group_.flux * std::min(light / (image_.native_x() * image_.native_y()), cut);
 }
 
-PixelError Ways::left_out(const Way &way) const {
-    if (way.radius >= group_.reach)
-        return {};
-    // Spikes that fall on each other, and the mean of what others near by leave out.
-    const double local = group_.densest * cut(way.radius) +
-                         (group_.crowded - group_.densest) * colour_.profile.mean_at(way.radius);
-    const double light = colour_.profile.beyond(way.radius);
+// By stamps that leave out so much `local`ly, and about all light beyond `from`, `cut` of a source's
+// in any pixel.
+PixelError Ways::left_out(const Way &way, double local, double from, double cut) const {
+    const double light = mean(colour_.profile.beyond(from), cut);
     if (!way.is_smooth_beyond())
-        return {local, mean(light, cut(way.radius))};
+        return {local, light};
     // What scatters is what many sources that are not in that cell leave out here.
     double squares = 0;
-    double r = way.radius + 1;
+    double r = from + 1;
     while (r <= FaintLight::reach) {
         squares += std::pow(colour_.profile.mean_at(r), 2) * 8 * r * 0.1 * r;
         r *= 1.1;
@@ -114,17 +111,21 @@ PixelError Ways::left_out(const Way &way) const {
     constexpr double deviations = 2; // of the densest cell
     const double scatter =
         deviations * std::sqrt(group_.crowded * group_.brightest * squares) / SourceGroup::cell;
-    return {std::hypot(local, scatter),
-            LightProfile::mean_varies * mean(light, cut(way.radius)) +
-                mean(colour_.profile.beyond(FaintLight::reach), cut(FaintLight::reach))};
+    return {std::hypot(local, scatter), LightProfile::mean_varies * light};
 }
 
 void Ways::leave_far(const Way &way, double time_s, const Take &take) const {
     const double of_psf = psf_error(group_, colour_, budget_, way);
-    const double beyond = way.radius >= group_.reach ? 0 : colour_.profile.beyond(way.radius);
-    if (beyond > budget_.flux)
-        return;
-    const PixelError error = left_out(way);
+    PixelError error;
+    if (way.radius < group_.reach) {
+        if (colour_.profile.beyond(way.radius) > budget_.flux)
+            return;
+        // Spikes that fall on each other, and the mean of what others near by leave out.
+        const double local =
+            group_.densest * cut(way.radius) +
+            (group_.crowded - group_.densest) * colour_.profile.mean_at(way.radius);
+        error = left_out(way, local, way.radius, cut(way.radius));
+    }
     take({way, time_s, {error.local + of_psf, error.mean}});
 }
 
@@ -166,18 +167,16 @@ void Ways::add_far(const Way &way, double time_s, const SharedFarLight &far,
             const double end = own_far ? std::min(step.radius, group_.reach) : tables_end;
             const double left =
                 std::max(step.floor, end < step.radius ? reach.brightest_beyond(end) : 0);
-            const double light =
-                colour_.profile.beyond(std::min(std::max(step.halo, way.radius), end));
-            if (end <= way.radius || light > budget_.flux)
+            const double from = std::min(std::max(step.halo, way.radius), end);
+            if (end <= way.radius || colour_.profile.beyond(from) > budget_.flux)
                 continue;
+            const PixelError error = left_out(way, group_.densest * (left + off), from, left);
             with.far = step.floor;
             double time = cost::far_blocks(step.pixels * tables_end / step.radius);
             if (own_far)
                 time += cost::making_far_light + cost::far_light(pixels(end)) +
                         cost::far_light(pixels(tables_end));
-            take({with,
-                  time_s + count() * time,
-                  {group_.densest * (left + off) + of_psf, mean(light, left)}});
+            take({with, time_s + count() * time, {error.local + of_psf, error.mean}});
         }
     }
 }

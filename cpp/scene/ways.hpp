@@ -39,8 +39,8 @@ struct Way {
     double far = 0;       // light beyond the stamp is drawn down to that share; 0: none is
     bool own_far = false; // it is that of the star's own place, and goes on beyond shared tables
 
-    // What the stamps leave out is drawn all the same, as smooth light.
-    bool is_smooth_beyond() const { return drawing == Drawing::shared && far == 0; }
+    // What is left out is drawn all the same, as smooth light.
+    bool is_smooth_beyond() const { return drawing == Drawing::shared; }
 
     // Own PSFs are made out to here; what is farther is drawn straight from the diffraction image.
     static constexpr double largest_field = 512;
@@ -114,7 +114,7 @@ class Ways {
     double shared_stamp(double radius, double eps, double left_out) const;
     double cut(double radius) const;
     double mean(double light, double cut) const;
-    PixelError left_out(const Way &way) const;
+    PixelError left_out(const Way &way, double local, double from, double cut) const;
     double far_off(const SharedFarLight &far, const Way &way) const;
     // What is beyond the stamps.
     void add_far(const Way &way, double time_s, const SharedFarLight &far, const Take &take) const;

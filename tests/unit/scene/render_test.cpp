@@ -57,5 +57,34 @@ TEST(Render, ErrorsOfClustersStayWithinTheBudget) {
     expect_within_budgets(optics, sources, image, {0.5, 0.05});
 }
 
+// So many stars everywhere that what is left out of each adds up to more than the budget. One PSF
+// serves all.
+TEST(Render, ErrorsOfCrowdsStayWithinTheBudget) {
+    SceneOptics optics = scenes::roman(
+        "J129", {detected_light(Instrument::get("roman-c9").band("J129"), black_body_sed(5000))});
+    optics.at = [middle = optics.middle()](double, double) { return middle; };
+    optics.varies = false;
+    const SceneImage crowd{.nx = 160, .ny = 140};
+    std::vector<PlacedSource> sources = scenes::stars({3000, 20, 25, 0.1, 5e12}, crowd, 0);
+    PsfSettings settings = optics.settings;
+    settings.eps = 1e-7;
+    settings.radius = 160;
+    const Psf psf = std::move(make_psfs(optics.middle(), {&optics.lights[0], 1}, settings)[0]);
+    Plane<double> truth(crowd.nx, crowd.ny), drawn(crowd.nx, crowd.ny);
+    for (const PlacedSource &source : sources) {
+        const Star star{source.x, source.y, source.flux};
+        psf.add({&star, 1}, 1, truth.view(), 1);
+    }
+    const ScenePlan plan(optics, sources, {}, {.noise = 0.1, .variance = 100}, crowd);
+    render(optics, plan, drawn.view(), 1);
+    EXPECT_TRUE(plan.meets_budget());
+    EXPECT_LT(plan.time_s(), 30) << plan.text();
+    EXPECT_LE(worst(drawn, truth, plan.budget().variance), plan.budget().error()) << plan.text();
+    const auto smooth = std::ranges::count_if(plan.groups(), [](const PlannedGroup &planned) {
+        return planned.way.is_smooth_beyond() && planned.way.radius < 100;
+    });
+    EXPECT_GT(smooth, 0);
+}
+
 } // namespace
 } // namespace wfpsf
