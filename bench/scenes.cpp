@@ -16,7 +16,6 @@ namespace {
 
 constexpr double zero_flux = 5.3e12; // e- in 140 s of J129 from AB 0
 constexpr double variance = 120;     // e-^2, of sky and read noise
-constexpr double slope = 0.4;        // of the counts, dex a magnitude
 constexpr int64_t detector_pixels = 4088;
 
 class Truth {
@@ -122,19 +121,21 @@ double largest_error(const SceneOptics &optics, std::vector<PlacedSource> stars,
 struct Stars {
     int64_t count;
     double bright, faint; // AB magnitudes
+    double slope = 0.4;   // of the counts, dex a magnitude
 };
 
 Case stars_case(const Stars &field, double noise, double target_s, bool with_error) {
     char name[96];
-    std::snprintf(name, sizeof name, "%.0e stars AB %g..%g on 4088^2, %g of the noise",
-                  static_cast<double>(field.count), field.bright, field.faint, noise);
+    std::snprintf(name, sizeof name, "%.0e stars AB %g..%g%s on 4088^2, %g of the noise",
+                  static_cast<double>(field.count), field.bright, field.faint,
+                  field.slope < 0.1 ? " evenly" : "", noise);
     return {name, "largest error / error allowed", target_s, 1, [=] {
                 const SceneOptics optics =
                     scenes::roman("J129", {detected_light(Instrument::get("roman-c9").band("J129"),
                                                           black_body_sed(5000))});
                 const SceneImage image{.nx = detector_pixels, .ny = detector_pixels};
                 std::vector<PlacedSource> stars = scenes::stars(
-                    {field.count, field.bright, field.faint, slope, zero_flux}, image, 32);
+                    {field.count, field.bright, field.faint, field.slope, zero_flux}, image, 32);
                 const SceneBudget budget{.noise = noise, .variance = variance};
                 Plane<float> drawn(image.nx, image.ny);
                 Measured m;
@@ -165,9 +166,12 @@ std::vector<Case> scene_cases() {
         cases.push_back(stars_case({100000, 24, 28}, noise, noise == 0.01 ? 5 : 0, noise > 0.005));
     for (const double noise : {0.1, 0.03, 0.01})
         cases.push_back(stars_case({100000, 20, 28}, noise, 0, false));
-    cases.push_back(stars_case({100000, 16, 28}, 0.1, 0, false));
-    for (const double noise : {0.1, 0.03})
-        cases.push_back(stars_case({100000, 12, 28}, noise, 0, false));
+    for (const double noise : {0.1, 0.01})
+        cases.push_back(stars_case({100000, 16, 28}, noise, 0, false));
+    for (const double noise : {0.1, 0.03, 0.01})
+        cases.push_back(stars_case({100000, 12, 28}, noise, noise == 0.01 ? 5 : 0, noise < 0.02));
+    for (const double noise : {0.1, 0.01}) // a crowd
+        cases.push_back(stars_case({100000, 20, 26, 0.001}, noise, 0, false));
     cases.push_back(stars_case({10000000, 26, 28}, 1, 0, false));
     return cases;
 }

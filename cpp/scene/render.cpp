@@ -111,9 +111,12 @@ template <class T> class Renderer {
             return;
         constexpr double below = 0.1; // light that sums of it must not count
         double floor = INFINITY;
+        bool mixed = false;
         for (const PlannedGroup &g : plan_.groups())
-            if (g.group.colour == static_cast<int32_t>(colour) && g.way.far > 0)
+            if (g.group.colour == static_cast<int32_t>(colour) && g.way.far > 0) {
                 floor = std::min(floor, below * g.way.far);
+                mixed = mixed || !g.way.own_far;
+            }
         if (!std::isfinite(floor))
             return;
         const ColourFacts &facts = plan_.colour(static_cast<int32_t>(colour));
@@ -124,8 +127,9 @@ template <class T> class Renderer {
                                               settings(far.exact_eps, far.exact_radius))[0]));
             ++report_.exact_psfs;
         }
-        tables_[colour].emplace(facts.far_lights, exact ? &*exact : nullptr, plan_.region(),
-                                far.radius, floor);
+        tables_[colour].emplace(
+            std::span(facts.far_lights).first(mixed ? facts.far_lights.size() : 1),
+            exact ? &*exact : nullptr, plan_.region(), far.radius, floor);
     }
 
     // What came of the plan's tolerances.
