@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 namespace wfpsf {
 
@@ -34,11 +35,6 @@ WFPSF_VECTORISED void sum(const Taps &of, float *pixels) {
     }
 }
 
-// The quadratics that are 1 at -1, 0 and 1 in turn, and 0 at the others.
-std::array<double, 3> quadratics(double u) {
-    return {u * (u - 1) / 2, 1 - u * u, u * (u + 1) / 2};
-}
-
 // Coarse samples do for what is small.
 constexpr int64_t per_pixel_of_light = 4, per_pixel_of_differences = 2;
 
@@ -53,14 +49,19 @@ SampledLight sampled_middle(const FarLight &light, const Psf *exact, double radi
     return sampled;
 }
 
-SampledLight sampled_difference(const FarLight &light, const SampledLight &from, double radius,
-                                double floor) {
-    SampledLight sampled(per_pixel_of_differences, radius);
-    sampled.add(light, light.nearest(), floor);
-    for (int64_t y = 0; y < sampled.sample.ny(); ++y)
-        for (int64_t x = 0; x < sampled.sample.nx(); ++x)
-            sampled.sample(x, y) -= from.sample(x, y);
-    return sampled;
+// The places along x and y in the order of FarTables::places().
+constexpr std::array<std::pair<int, int>, 9> order{
+    {{1, 1}, {0, 1}, {2, 1}, {1, 0}, {1, 2}, {0, 0}, {2, 0}, {0, 2}, {2, 2}}};
+
+// From the values of a quadratic at -1, 0 and 1 to its coefficients.
+void to_coefficients(SampledLight &low, const SampledLight &middle, SampledLight &high) {
+    for (int64_t y = 0; y < middle.sample.ny(); ++y)
+        for (int64_t x = 0; x < middle.sample.nx(); ++x) {
+            float &first = low.sample(x, y), &last = high.sample(x, y);
+            const float slope = (last - first) / 2, mean = (last + first) / 2;
+            first = slope;
+            last = mean - middle.sample(x, y);
+        }
 }
 
 } // namespace
@@ -216,14 +217,14 @@ void FarTable::add(const Star &star, double inner, double floor, View<T> image, 
 
 std::vector<std::pair<double, double>> FarTables::places(const Region &image, bool varies) {
     const auto at = [&image](int i, int j) {
-        return std::pair(std::lerp(image.x0, image.x1, (1 + i) / 2.0),
-                         std::lerp(image.y0, image.y1, (1 + j) / 2.0));
+        return std::pair(std::lerp(image.x0, image.x1, i / 2.0),
+                         std::lerp(image.y0, image.y1, j / 2.0));
     };
-    std::vector<std::pair<double, double>> places{at(0, 0)};
-    for (int j = -1; j <= 1 && varies; ++j)
-        for (int i = -1; i <= 1; ++i)
-            if (i != 0 || j != 0)
-                places.push_back(at(i, j));
+    if (!varies)
+        return {at(1, 1)};
+    std::vector<std::pair<double, double>> places;
+    for (const auto &[i, j] : order)
+        places.push_back(at(i, j));
     return places;
 }
 
@@ -232,35 +233,40 @@ FarTables::FarTables(std::span<const FarLight> at_places, const Psf *exact, cons
     : image_(image), middle_(sampled_middle(at_places[0], exact, radius, floor), radius) {
     if (at_places.size() == 1)
         return;
-    SampledLight from(per_pixel_of_differences, radius);
-    from.add(at_places[0], at_places[0].nearest(), floor);
-    for (const FarLight &light : at_places.subspan(1))
-        differences_.emplace_back(sampled_difference(light, from, radius, floor), radius);
+    std::array<std::array<std::optional<SampledLight>, 3>, 3> at; // [j][i]
+    for (size_t k = 0; k < order.size(); ++k) {
+        auto &sampled =
+            at[static_cast<size_t>(order[k].second)][static_cast<size_t>(order[k].first)];
+        sampled.emplace(per_pixel_of_differences, radius);
+        sampled->add(at_places[k], at_places[k].nearest(), floor);
+    }
+    for (auto &row : at)
+        to_coefficients(*row[0], *row[1], *row[2]);
+    for (size_t i = 0; i < at.size(); ++i)
+        to_coefficients(*at[0][i], *at[1][i], *at[2][i]);
+    for (const auto &[i, j] : std::span(order).subspan(1))
+        differences_.emplace_back(std::move(*at[static_cast<size_t>(j)][static_cast<size_t>(i)]),
+                                  radius);
 }
 
 template <class T>
 void FarTables::add(const Star &star, double x, double y, double inner, double floor, View<T> image,
                     int64_t first_row, int64_t last_row) const {
     middle_.add(star, inner, floor, image, first_row, last_row);
-    if (differences_.empty())
-        return;
     constexpr double little = 0.1; // of the floor
-    const auto scaled = [](double at, double low, double high) {
-        return std::clamp(2 * (at - low) / (high - low) - 1, -1.0, 1.0);
+    const auto powers = [](double at, double low, double high) {
+        const double u = std::clamp(2 * (at - low) / (high - low) - 1, -1.0, 1.0);
+        return std::array{u, 1.0, u * u};
     };
-    const auto along_x = quadratics(scaled(x, image_.x0, image_.x1));
-    const auto along_y = quadratics(scaled(y, image_.y0, image_.y1));
-    auto difference = differences_.begin();
-    for (size_t j = 0; j < along_y.size(); ++j)
-        for (size_t i = 0; i < along_x.size(); ++i) {
-            if (i == 1 && j == 1) // the middle
-                continue;
-            const double weight = along_y[j] * along_x[i];
-            if (weight != 0)
-                difference->add({star.x, star.y, weight * star.flux}, inner,
+    const auto along_x = powers(x, image_.x0, image_.x1);
+    const auto along_y = powers(y, image_.y0, image_.y1);
+    for (size_t k = 0; k < differences_.size(); ++k) {
+        const auto &[i, j] = order[k + 1];
+        const double weight = along_x[static_cast<size_t>(i)] * along_y[static_cast<size_t>(j)];
+        if (weight != 0)
+            differences_[k].add({star.x, star.y, weight * star.flux}, inner,
                                 little * floor / std::abs(weight), image, first_row, last_row);
-            ++difference;
-        }
+    }
 }
 
 template void FarTable::add(const Star &, double, double, View<float>, int64_t, int64_t) const;

@@ -82,7 +82,7 @@ class FarTables {
   private:
     Region image_;
     FarTable middle_;
-    std::vector<FarTable> differences_; // of the other places
+    std::vector<FarTable> differences_; // coefficients of x, x^2, y, y^2, x y, ...
 };
 
 } // namespace wfpsf

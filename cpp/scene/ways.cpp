@@ -15,9 +15,13 @@ namespace {
 // Errors below that share of the budget need not become smaller.
 constexpr double negligible = 0.01;
 
-// What PSFs are off and lack is no larger than that, of what they may be: those of the whole
-// detector, exact ones, and far light (tests/unit/optics).
-constexpr double of_bound = 0.3, of_exact = 0.05;
+// What PSFs are off is no larger than that, of what they may be (tests/unit/optics): exact ones at
+// the core and far from it, those of the whole detector anywhere; and what these lack where parts are
+// left out. Then far light from the pupil's edges.
+constexpr double of_exact = 0.05, of_exact_far_off = 0.015, of_left_out = 0.3;
+double of_model(double eps) {
+    return eps > 5e-4 ? 0.2 : 0.1;
+}
 double of_far(double radius) {
     return std::min(0.5, 50 / radius);
 }
@@ -69,9 +73,13 @@ double psf_error(const SourceGroup &group, const ColourFacts &colour, const Scen
     // A galaxy drawn as a star: half the curvature of the PSF times the mean square along an axis;
     // the curvature of Roman's PSFs at the peak is below 4 / pixel^2 of it.
     const double point_like = group.is_galaxy ? std::min(1.0, group.mean_square) * peak : 0;
-    const double of_psf = (way.drawing == Drawing::own ? of_exact : of_bound) * way.eps * peak;
-    return std::max(in_noise(of_psf, in_core), group.densest * VaryingPsf::error_far_off * of_psf) +
-           in_noise(of_bound * way.left_out, std::min(in_core, way.left_out / differs)) +
+    const double tolerance = way.eps * peak;
+    const double of_psf = way.drawing == Drawing::own
+                              ? std::max(in_noise(of_exact * tolerance, in_core),
+                                         group.densest * of_exact_far_off * tolerance)
+                              : group.densest * of_model(way.eps) * tolerance;
+    return of_psf +
+           in_noise(of_left_out * way.left_out, std::min(in_core, way.left_out / differs)) +
            in_noise(point_like, in_core);
 }
 

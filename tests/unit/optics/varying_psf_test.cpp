@@ -66,7 +66,7 @@ TEST(VaryingPsf, EveryToleranceIsMetAtPlacesNotSeen) {
             const double worst = worst_error(model, optics, light, 12);
             EXPECT_LE(model.error_estimate(), eps) << sca << band;
             EXPECT_LE(worst, model.error_estimate()) << sca << band << ' ' << eps;
-            EXPECT_LE(worst, 0.3 * eps) << "which plans of scenes count on";
+            EXPECT_LE(worst, (eps > 5e-4 ? 0.2 : 0.1) * eps) << "which plans of scenes count on";
             const auto degree = static_cast<size_t>(model.degree());
             EXPECT_LE(model.rank(), (degree + 1) * (degree + 2) / 2);
         }
