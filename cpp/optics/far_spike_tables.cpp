@@ -19,10 +19,8 @@ constexpr double pi = std::numbers::pi;
 // What is left of the light of an edge's end where an arc goes on from it smoothly, by the place of
 // the arc's point of stationary phase: the end's amplitude, 1 / (pi x), less Fresnel's tail.
 double rounded(double x) {
-    if (x < 1e-6)
-        return 1;
     double re, im;
-    fresnel_tail(x, re, im);
+    fresnel_auxiliary(x, re, im);
     return std::pow(re * pi * x, 2) + std::pow(im * pi * x - 1, 2);
 }
 
