@@ -5,7 +5,6 @@
 #include "numerics/phasor.hpp"
 #include "optics/fresnel.hpp"
 
-#include <array>
 #include <numbers>
 
 namespace wfpsf {
@@ -69,9 +68,6 @@ Stationary stationary(const Oval &o, const Wavefront &w, double ux, double uy, d
             .w_slope = (after - before) / (2 * turn),
             .w_bend = (after - 2 * here + before) / (turn * turn)};
 }
-
-// By distance.
-using Distances = std::array<double, RimTable::distances>;
 
 // Fresnel's integral from 0 to an arc's end, without the waves that come from there itself when it
 // is far off: those are a corner's light. `own` is 0 where they are that of the edge that goes on.
@@ -176,14 +172,14 @@ RimTable::Vector RimPoint::position(double ux, double uy) const {
 double RimPoint::most(double ux, double uy, double r, double reach) const {
     const auto at = RimTable::place(ux, uy, nearest / r);
     const auto width = static_cast<int>(reach / r * RimTable::directions / 4) + 1;
-    double most = 0;
+    double square = 0;
     for (int i = -width; i <= width + 1; ++i)
         for (const int j : {at.column, at.column + 1}) {
             const int row = (at.row + i + RimTable::directions) % RimTable::directions;
             const size_t entry = RimTable::entry(row, j);
-            most = std::max(most, std::hypot(re[entry], im[entry]));
+            square = std::max(square, re[entry] * re[entry] + im[entry] * im[entry]);
         }
-    return most;
+    return std::sqrt(square);
 }
 
 std::vector<RimPoint> rim_points(const FarSource &source, const PupilEdges &edges) {

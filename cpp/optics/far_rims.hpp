@@ -7,6 +7,7 @@
 #include "optics/far_spikes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -54,6 +55,9 @@ struct RimTable {
         return {j, c, row - j, column - c};
     }
 };
+
+// From the farthest on.
+using Distances = std::array<double, RimTable::distances>;
 
 // How much of what Fresnel's integral has from where an edge ends, x from the point, is a corner's
 // light by itself.
