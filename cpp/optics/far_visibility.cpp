@@ -29,20 +29,39 @@ std::array<double, far_colours> lagrange(const std::array<double, far_colours> &
     return out;
 }
 
-// table[j] += share exp(2 pi i (j - 1) turn)
-WFPSF_VECTORISED void add_turning(const std::array<double, far_colours> &share, double turn,
-                                  std::span<ColourWaves> table) {
-    for (size_t j = 0; j < table.size(); ++j) {
-        double cosine, sine;
-        phasor((static_cast<double>(j) - 1) * turn, cosine, sine);
-        for (size_t m = 0; m < far_colours; ++m) {
-            table[j].re[m] += share[m] * cosine;
-            table[j].im[m] += share[m] * sine;
+// Of some wavelengths: the shares in the colours, and the phase between a table's entries.
+struct Turning {
+    static constexpr size_t most = 128;
+    std::array<std::array<double, far_colours>, most> share;
+    std::array<double, most> turn;
+    size_t size = 0;
+};
+
+// table[j] += sum of share exp(2 pi i (j - 1) turn), by rotation.
+WFPSF_VECTORISED void add_turning(const Turning &waves, std::span<ColourWaves> table) {
+    std::array<double, Turning::most> re, im, cosine, sine;
+    for (size_t q = 0; q < waves.size; ++q) {
+        phasor(waves.turn[q], cosine[q], sine[q]);
+        re[q] = cosine[q];
+        im[q] = -sine[q];
+    }
+    for (ColourWaves &entry : table) {
+        ColourWaves sum = entry;
+        for (size_t q = 0; q < waves.size; ++q)
+            for (size_t m = 0; m < far_colours; ++m) {
+                sum.re[m] += waves.share[q][m] * re[q];
+                sum.im[m] += waves.share[q][m] * im[q];
+            }
+        entry = sum;
+        for (size_t q = 0; q < waves.size; ++q) {
+            const double turned = re[q] * cosine[q] - im[q] * sine[q];
+            im[q] = re[q] * sine[q] + im[q] * cosine[q];
+            re[q] = turned;
         }
     }
 }
 
-// The same of one colour: from the phase `start` on.
+// table[j] += weight exp(2 pi i (start + j turn)) of one colour.
 WFPSF_VECTORISED void add_turning(size_t colour, double weight, double start, double turn,
                                   std::span<ColourWaves> table) {
     for (size_t j = 0; j < table.size(); ++j) {
@@ -66,12 +85,18 @@ Visibility::Visibility(const FarSource &source, double longest) {
         wavenumber_[m] = middle_ - half * std::cos(pi * (static_cast<double>(m) + 0.5) /
                                                    static_cast<double>(far_colours));
     table_.resize(static_cast<size_t>(longest * per_path_) + 4);
+    Turning waves;
     for (size_t q = 0; q < spectrum.size(); ++q) {
         const double wavelength = spectrum.wavelength[q];
         auto share = lagrange(wavenumber_, 1 / wavelength);
         for (double &value : share)
             value *= spectrum.weight[q] * std::sqrt(wavelength / mean);
-        add_turning(share, (1 / wavelength - middle_) / per_path_, table_);
+        waves.share[waves.size] = share;
+        waves.turn[waves.size++] = (1 / wavelength - middle_) / per_path_;
+        if (waves.size == Turning::most || q + 1 == spectrum.size()) {
+            add_turning(waves, table_);
+            waves.size = 0;
+        }
     }
     most_.resize(table_.size());
     for (size_t j = table_.size(); j-- > 0;) {

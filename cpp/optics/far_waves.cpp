@@ -18,21 +18,20 @@ class Turning {
   public:
     [[gnu::always_inline]] explicit Turning(const Ramps &turns) {
         for (size_t q = 0; q < lanes; ++q) {
-            phasor(turns.start[q], now.re[q], now.im[q]);
+            phasor(turns.start[q], now_.re[q], now_.im[q]);
             phasor(turns.step[q], step_.re[q], step_.im[q]);
         }
     }
-    [[gnu::always_inline]] void next() {
-        for (size_t q = 0; q < lanes; ++q) {
-            const double re = now.re[q], im = now.im[q];
-            now.re[q] = re * step_.re[q] - im * step_.im[q];
-            now.im[q] = re * step_.im[q] + im * step_.re[q];
-        }
+    // The next point's are for the next time.
+    [[gnu::always_inline]] void take(size_t q, double &re, double &im) {
+        re = now_.re[q];
+        im = now_.im[q];
+        now_.re[q] = re * step_.re[q] - im * step_.im[q];
+        now_.im[q] = re * step_.im[q] + im * step_.re[q];
     }
-    Waves now;
 
   private:
-    Waves step_;
+    Waves now_, step_;
 };
 
 } // namespace
@@ -53,14 +52,14 @@ WFPSF_VECTORISED void integrate(std::span<const EdgeNode> nodes, const Lanes &pe
         Waves constant{}, slope{};
         for (size_t i = 0; i < nodes.size(); ++i) {
             const EdgeNode &node = nodes[i];
-            const Waves &wave = waves[i].now;
             for (size_t q = 0; q < lanes; ++q) {
-                constant.re[q] += node.weight * wave.re[q];
-                constant.im[q] += node.weight * wave.im[q];
-                slope.re[q] += node.slope[q] * wave.re[q];
-                slope.im[q] += node.slope[q] * wave.im[q];
+                double re, im;
+                waves[i].take(q, re, im);
+                constant.re[q] += node.weight * re;
+                constant.im[q] += node.weight * im;
+                slope.re[q] += node.slope[q] * re;
+                slope.im[q] += node.slope[q] * im;
             }
-            waves[i].next();
         }
         sample = {constant, slope};
     }
@@ -76,10 +75,9 @@ WFPSF_VECTORISED void add_edge(std::span<const EdgeSample> table, Ramp position,
         const double f = at == place ? factor.at(j) : 0;
         const auto cell = static_cast<int32_t>(at);
         const double s = at - cell, a = s + 1, b = s - 1, c = s - 2;
-        const double w[] = {-f * s * b * c / 6, f * a * b * c / 2, -f * a * s * c / 2,
-                            f * a * s * b / 6};
+        const double sixth = f / 6, w[] = {-sixth * s * b * c, 3 * sixth * a * b * c,
+                                           -3 * sixth * a * s * c, sixth * a * s * b};
         const EdgeSample *sample = table.data() + cell - 1;
-        const Waves &turn = turning.now;
         for (size_t q = 0; q < lanes; ++q) {
             double re = 0, im = 0, slope_re = 0, slope_im = 0;
             for (size_t k = 0; k < 4; ++k) {
@@ -90,10 +88,11 @@ WFPSF_VECTORISED void add_edge(std::span<const EdgeSample> table, Ramp position,
             }
             re -= share[q] * slope_re;
             im -= share[q] * slope_im;
-            row[j].re[q] += re * turn.re[q] - im * turn.im[q];
-            row[j].im[q] += re * turn.im[q] + im * turn.re[q];
+            double turn_re, turn_im;
+            turning.take(q, turn_re, turn_im);
+            row[j].re[q] += re * turn_re - im * turn_im;
+            row[j].im[q] += re * turn_im + im * turn_re;
         }
-        turning.next();
     }
 }
 
@@ -104,17 +103,17 @@ WFPSF_VECTORISED void add_arc(const Ramps &x, bool conjugate, const Lanes &scale
     Turning turning(turns);
     for (size_t j = 0; j < row.size(); ++j) {
         const double f = factor.at(j);
-        const Waves &turn = turning.now;
         for (size_t q = 0; q < lanes; ++q) {
             const double at = x.start[q] + x.step[q] * static_cast<double>(j);
             const double weight = at > first && at < last ? f * scale[q] : 0;
             double re, im;
             fresnel_tail(at, re, im);
             im *= sign;
-            row[j].re[q] += weight * (re * turn.re[q] - im * turn.im[q]);
-            row[j].im[q] += weight * (re * turn.im[q] + im * turn.re[q]);
+            double turn_re, turn_im;
+            turning.take(q, turn_re, turn_im);
+            row[j].re[q] += weight * (re * turn_re - im * turn_im);
+            row[j].im[q] += weight * (re * turn_im + im * turn_re);
         }
-        turning.next();
     }
 }
 
