@@ -53,11 +53,13 @@ typename PointFringes<Point>::Edge PointFringes<Point>::edge(const EdgeColours &
         if (known(out.edge.straight, points_[p]))
             continue;
         const auto [x, y] = points_[p].position(nx, ny);
-        out.waves.push_back(colours.waves(out.edge, x, y));
+        out.waves.push_back(colours.waves(i, x, y));
+        const double brightest = wfpsf::most(out.waves.back());
         for (const size_t side : {0, 1}) {
             Pair pair{seen_from(p, side, points_[p]), out.waves.size() - 1, {}};
             for (size_t j = 0; ring(nearest_, j) < fringes_end; ++j) {
-                const double r = ring(nearest_, j), here = most(out, pair, side, r);
+                const double r = ring(nearest_, j),
+                             here = brightest * most(out.edge, pair.point, side, r);
                 const double own = scale_ / 2 * std::pow(out.edge.length / r, 2);
                 pair.most.push_back(here < faint * own ? 0 : here);
             }
@@ -72,14 +74,15 @@ typename PointFringes<Point>::Edge PointFringes<Point>::edge(const EdgeColours &
 }
 
 template <class Point>
-double PointFringes<Point>::most(const Edge &edge, const Pair &pair, size_t side, double r) const {
-    const auto &[axes, x, y, length, straight] = edge.edge;
+double PointFringes<Point>::most(const EdgeColours::Edge &edge, size_t p, size_t side,
+                                 double r) const {
+    const auto &[axes, x, y, length, straight] = edge;
     const double way = side == 0 ? 1 : -1, ux = way * axes.nx, uy = way * axes.ny;
-    const Point &point = points_[pair.point];
+    const Point &point = points_[p];
     const double path = std::abs(way * axes.along(x, y) - point.place(ux, uy)) * r -
                         length * reach_; // to the spike's sides
-    return scale_ * wfpsf::most(edge.waves[pair.waves]) * point.most(ux, uy, r, reach_) *
-           visibility_->most(path * pixel_) / (r * r * std::sqrt(r * pixel_ / wavelength_));
+    return scale_ * point.most(ux, uy, r, reach_) * visibility_->most(path * pixel_) /
+           (r * r * std::sqrt(r * pixel_ / wavelength_));
 }
 
 // ----------------------------------------------------------------------------------------- drawing

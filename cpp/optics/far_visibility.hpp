@@ -82,19 +82,32 @@ class EdgeColours {
 
     // From two steps before -reach on; times the pixel's and the blur's response to fringes with
     // light from (x, y).
-    std::vector<ColourWaves> waves(const Edge &edge) const;
-    std::vector<ColourWaves> waves(const Edge &edge, double x, double y) const;
+    std::vector<ColourWaves> waves(size_t edge) const;
+    std::vector<ColourWaves> waves(size_t edge, double x, double y) const;
     // Of the pixel and the blur in a direction of length one, native pixels squared.
     double variance(double ux, double uy) const;
 
-  private:
-    double response(double x, double y, double wavenumber) const;
-    template <class Response>
-    std::vector<ColourWaves> integral(const Edge &edge, const Response &response_to) const;
+    // A point of an edge: its share of the integral, and its wave from one position to the next.
+    struct Node {
+        double x, y;
+        std::array<double, far_colours> weight;
+        ColourWaves wave, step;
+    };
+    struct Response {
+        Covariance blur;                        // in the pupil's frame
+        double width;                           // of the pixel
+        std::array<double, far_colours> cycles; // per metre and native pixel
+    };
 
-    const FarSource &source_;
-    std::array<double, far_colours> wavenumber_;
+  private:
+    std::vector<Node> nodes(const FarSource &source,
+                            const std::array<double, far_colours> &wavenumber,
+                            const Edge &edge) const;
+    std::vector<ColourWaves> table(std::vector<Node> nodes) const;
+
+    Response response_;
     std::vector<Edge> edges_;
+    std::vector<std::vector<Node>> nodes_; // by edge
     double per_across_, reach_ = 0;
 };
 
