@@ -59,7 +59,7 @@ void add_roots(std::vector<double> &roots, double a, double b, double c) {
 
 Run between(Run run, double start, double step, double low, double high) {
     const double a = (low - start) / step, b = (high - start) / step;
-    if (std::isfinite(a) && std::isfinite(b)) {
+    if (!std::isnan(a) && !std::isnan(b)) {
         const auto first = static_cast<double>(run.first), last = static_cast<double>(run.last);
         run.first = static_cast<int64_t>(std::ceil(std::clamp(std::min(a, b), first, last + 1)));
         run.last = static_cast<int64_t>(std::floor(std::clamp(std::max(a, b), first - 1, last)));
@@ -108,30 +108,56 @@ struct SpikeTable {
     const double *rounded;
 };
 
-WFPSF_VECTORISED void add_spike(const SpikeTable &spike, double x0, double y, size_t n,
-                                double *light) {
+// What rounded ends leave of the light.
+[[gnu::always_inline]] inline double left_of(const SpikeTable &spike, double along, double across) {
+    const double x =
+        std::min(across * std::sqrt(spike.rounding / along), Spike::rounded_size - 2.0);
+    const auto cell = static_cast<int32_t>(x);
+    const double *left = spike.rounded + cell;
+    return left[0] + (x - cell) * (left[1] - left[0]);
+}
+
+// Positions inside the table.
+template <bool rounded>
+WFPSF_VECTORISED void add_profile(const SpikeTable &table, double x0, double y, size_t n,
+                                  double *light) {
+    const SpikeTable spike = table; // no store changes it
     const auto [nx, ny] = spike.axes;
     const double y2 = y * y;
     for (size_t i = 0; i < n; ++i) {
         const double x = x0 + static_cast<double>(i);
         const double along = nx * x + ny * y, across = nx * y - ny * x;
         const double inverse = along / (x * x + y2);
-        const double square = across * across;
-        const bool near = square < spike.reach * spike.reach;
-        const double place = near ? (across + spike.reach) * spike.per_pixel : 0;
+        const double place = (across + spike.reach) * spike.per_pixel;
         const auto cell = static_cast<int32_t>(place);
         const double s = place - cell;
-        const double in_table =
+        const double value =
             cubic(s, spike.constant + cell) + inverse * cubic(s, spike.slope + cell);
-        const double value = near ? in_table : spike.tail / square;
         // Between the fringes' table and the rounding of the edge's ends.
-        const double x_of_arc = std::min(std::sqrt(spike.rounding * square / std::abs(along)),
-                                         Spike::rounded_size - 2.0);
-        const auto arc_cell = static_cast<int32_t>(x_of_arc);
-        const double *left = spike.rounded + arc_cell;
-        const double share = left[0] + (x_of_arc - arc_cell) * (left[1] - left[0]);
-        const double inner = within(across / spike.fringe_reach);
-        light[i] += spike.scale * inverse * inverse * value * (inner + (1 - inner) * share);
+        double share = 1;
+        if constexpr (rounded) {
+            const double inner = within(across / spike.fringe_reach);
+            share = inner + (1 - inner) * left_of(spike, std::abs(along), std::abs(across));
+        }
+        light[i] += spike.scale * inverse * inverse * value * share;
+    }
+}
+
+// Beyond it.
+template <bool rounded>
+WFPSF_VECTORISED void add_tail(const SpikeTable &table, double x0, double y, size_t n,
+                               double *light) {
+    const SpikeTable spike = table;
+    const auto [nx, ny] = spike.axes;
+    const double scale = spike.scale * spike.tail, y2 = y * y;
+    for (size_t i = 0; i < n; ++i) {
+        const double x = x0 + static_cast<double>(i);
+        const double along = nx * x + ny * y, across = nx * y - ny * x;
+        const double slope = along / ((x * x + y2) * across);
+        double share = 1;
+        if constexpr (rounded)
+            share = left_of(spike, std::abs(along), std::abs(across));
+        light[i] += scale * slope * slope * share;
     }
 }
 
@@ -164,9 +190,19 @@ void Spike::add(const PixelRow &row, double floor) const {
                            constant_.data() + 1,
                            slope_.data() + 1,
                            rounded_.data()};
+    const auto draw = [&](auto &add, int64_t first, int64_t last) {
+        if (first > last)
+            return;
+        const PixelRow part = row.part(first, last);
+        add(table, part.x, part.y, part.light.size(), part.light.data());
+    };
+    const auto profile = rounding_ > 0 ? add_profile<true> : add_profile<false>;
+    const auto tail = rounding_ > 0 ? add_tail<true> : add_tail<false>;
     for (const Run &run : runs) {
-        const PixelRow part = row.part(run.first, run.last);
-        add_spike(table, part.x, part.y, part.light.size(), part.light.data());
+        const Run in_table = between(run, axes_.across(row.x, row.y), -ny, -reach_, reach_);
+        draw(tail, run.first, in_table.first - 1);
+        draw(profile, in_table.first, in_table.last);
+        draw(tail, in_table.last + 1, run.last);
     }
 }
 
