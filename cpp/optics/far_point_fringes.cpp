@@ -101,34 +101,48 @@ template <class Point> struct PairTable {
 template <class Point>
 WFPSF_VECTORISED void add_pair(const PairTable<Point> &pair, double x0, double y, size_t n,
                                double *light) {
-    const auto [nx, ny] = pair.edge.axes;
-    for (size_t i = 0; i < n; ++i) {
-        const double x = x0 + static_cast<double>(i);
-        const double along = nx * x + ny * y, across = nx * y - ny * x;
-        const double r2 = x * x + y * y, r = std::sqrt(r2);
-        const auto amplitude = pair.point.amplitude(x, y, r);
-        const double path =
-            pair.pixel * (pair.edge.x * x + pair.edge.y * y - pair.point.place(x, y)) -
-            amplitude.waves * pair.wavelength;
-        const double entry = std::min(std::abs(path) * pair.per_path, pair.longest);
-        const double column = (across + pair.reach) * pair.per_across;
-        const auto cell = static_cast<int32_t>(entry), left = static_cast<int32_t>(column);
-        const CubicWeights of_path(entry - cell), of_edge(column - left);
-        const double sign = path < 0 ? -1 : 1;
-        double sum_re = 0, sum_im = 0;
-        for (size_t m = 0; m < far_colours; ++m) {
-            double v_re, v_im, e_re, e_im;
-            of_path.read(pair.visibility + cell, m, v_re, v_im);
-            of_edge.read(pair.waves + left, m, e_re, e_im);
-            v_im *= sign;
-            sum_re += v_re * e_re - v_im * e_im;
-            sum_im += v_re * e_im + v_im * e_re;
+    constexpr size_t size = PixelBlock::size;
+    for (size_t first = 0; first < n; first += size) {
+        PixelBlock at; // the last pixel again beyond the row
+        for (size_t i = 0; i < size; ++i) {
+            at.x[i] = x0 + static_cast<double>(std::min(first + i, n - 1));
+            at.y[i] = y;
+            at.r[i] = std::sqrt(at.x[i] * at.x[i] + y * y);
         }
-        double cosine, sine;
-        phasor(path * pair.middle, cosine, sine);
-        light[i] += pair.scale * along / (r2 * r * std::sqrt(r)) * within(across / pair.reach) *
-                    ((sum_re * cosine - sum_im * sine) * amplitude.re +
-                     (sum_re * sine + sum_im * cosine) * amplitude.im);
+        AmplitudeBlock sent;
+        pair.point.amplitudes(at, sent);
+        const auto [nx, ny] = pair.edge.axes;
+        PixelBlock::Values entry, column, re, im, side; // side: the sign of the path
+        for (size_t i = 0; i < size; ++i) {
+            const double x = at.x[i], r = at.r[i];
+            const double along = nx * x + ny * y, across = nx * y - ny * x;
+            const double path =
+                pair.pixel * (pair.edge.x * x + pair.edge.y * y - pair.point.place(x, y)) -
+                sent.waves[i] * pair.wavelength;
+            entry[i] = std::min(std::abs(path) * pair.per_path, pair.longest);
+            column[i] = (across + pair.reach) * pair.per_across;
+            side[i] = std::copysign(1.0, path);
+            double cosine, sine;
+            phasor(path * pair.middle, cosine, sine);
+            const double factor =
+                pair.scale * along / (r * r * r * std::sqrt(r)) * within(across / pair.reach);
+            re[i] = factor * (sent.re[i] * cosine + sent.im[i] * sine);
+            im[i] = factor * (sent.im[i] * cosine - sent.re[i] * sine);
+        }
+        for (size_t i = 0; i < std::min(size, n - first); ++i) {
+            const auto cell = static_cast<int32_t>(entry[i]),
+                       left = static_cast<int32_t>(column[i]);
+            const CubicWeights of_path(entry[i] - cell), of_edge(column[i] - left);
+            std::array<double, far_colours> sum;
+            for (size_t m = 0; m < far_colours; ++m) {
+                double v_re, v_im, e_re, e_im;
+                of_path.read(pair.visibility + cell, m, v_re, v_im);
+                of_edge.read(pair.waves + left, m, e_re, e_im);
+                sum[m] = v_re * (e_re * re[i] + e_im * im[i]) +
+                         side[i] * v_im * (e_re * im[i] - e_im * re[i]);
+            }
+            light[first + i] += total(sum);
+        }
     }
 }
 

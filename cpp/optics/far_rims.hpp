@@ -63,10 +63,21 @@ using Distances = std::array<double, RimTable::distances>;
 // light by itself.
 [[gnu::always_inline]] inline double corner_share(double x) {
     constexpr double none = 2, whole = 5;
-    const double t = (x - none) / (whole - none);
-    const double s = (std::abs(t) - std::abs(t - 1) + 1) / 2; // within 0..1, without a branch
+    const double s = std::clamp((x - none) / (whole - none), 0.0, 1.0);
     return s * s * (3 - 2 * s);
 }
+
+// Some pixels of a row: positions and distances from the star, native pixels.
+struct PixelBlock {
+    static constexpr size_t size = 16;
+    using Values = std::array<double, size>;
+    Values x, y, r;
+};
+
+// What a point sends there.
+struct AmplitudeBlock {
+    PixelBlock::Values re, im, waves;
+};
 
 // One of an oval's two points, in front (towards the direction) or behind. Its amplitude is
 // exp(2 pi i (k place + waves)) / k^(3/2) times the table's, the light per unit of solid angle that
@@ -84,14 +95,15 @@ struct RimPoint {
         const double a = oval.half_width * x + oval.shear * y, b = oval.half_height * y;
         return oval.x * x + oval.y * y + side * std::sqrt(a * a + b * b);
     }
-    // In the direction of (x, y), which are native pixels, r long.
-    struct Amplitude {
-        double re, im, waves;
-    };
-    [[gnu::always_inline]] Amplitude amplitude(double x, double y, double r) const {
-        const auto at = RimTable::place(x, y, nearest / r);
-        const double *wave = waves.data() + at.row;
-        return {at.of(re.data()), at.of(im.data()), wave[0] + at.s * (wave[1] - wave[0])};
+    [[gnu::always_inline]] void amplitudes(const PixelBlock &at, AmplitudeBlock &out) const {
+        const double *table_re = re.data(), *table_im = im.data(), *table_waves = waves.data();
+        for (size_t i = 0; i < at.size; ++i) {
+            const auto place = RimTable::place(at.x[i], at.y[i], nearest / at.r[i]);
+            const double *wave = table_waves + place.row;
+            out.re[i] = place.of(table_re);
+            out.im[i] = place.of(table_im);
+            out.waves[i] = wave[0] + place.s * (wave[1] - wave[0]);
+        }
     }
     // Of all amplitudes at the distance r, up to `reach` aside from the direction.
     double most(double ux, double uy, double r, double reach) const;

@@ -19,15 +19,24 @@ struct ColourWaves {
     std::array<double, far_colours> re, im;
 };
 
+// In pairs, which vector instructions add.
+[[gnu::always_inline]] inline double total(std::array<double, far_colours> sum) {
+    static_assert(far_colours == 8);
+    for (size_t m = 0; m < 4; ++m)
+        sum[m] += sum[m + 4];
+    return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+}
+
 // Weights of Lagrange's cubic through the samples -1, 0, 1, 2 at 0 <= s < 1.
 struct CubicWeights {
     double w[4];
     [[gnu::always_inline]] explicit CubicWeights(double s) {
         const double a = s + 1, b = s - 1, c = s - 2;
-        w[0] = -s * b * c / 6;
+        constexpr double sixth = 1.0 / 6;
+        w[0] = -s * b * c * sixth;
         w[1] = a * b * c / 2;
         w[2] = -a * s * c / 2;
-        w[3] = a * s * b / 6;
+        w[3] = a * s * b * sixth;
     }
     // From the sample -1 on.
     [[gnu::always_inline]] void read(const ColourWaves *wave, size_t colour, double &re,
