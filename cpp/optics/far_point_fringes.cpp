@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <span>
 
 namespace wfpsf {
 
@@ -39,6 +40,9 @@ PointFringes<Point>::PointFringes(const FarSource &source, const EdgeColours &co
       wavelength_(source.mean_wavelength()), pixel_(source.pixel()),
       scale_(1 / (2 * pi * pi * source.area())), reach_(colours.reach()),
       per_across_(colours.per_across()) {
+    for (size_t j = 0; ring(nearest_, j) < fringes_end; ++j)
+        rings_.push_back(ring(nearest_, j));
+    rings_.push_back(fringes_end);
     for (size_t i = 0; i < colours.edges().size(); ++i)
         edges_.push_back(edge(colours, i, known));
 }
@@ -57,9 +61,8 @@ typename PointFringes<Point>::Edge PointFringes<Point>::edge(const EdgeColours &
         const double brightest = wfpsf::most(out.waves.back());
         for (const size_t side : {0, 1}) {
             Pair pair{seen_from(p, side, points_[p]), out.waves.size() - 1, {}};
-            for (size_t j = 0; ring(nearest_, j) < fringes_end; ++j) {
-                const double r = ring(nearest_, j),
-                             here = brightest * most(out.edge, pair.point, side, r);
+            for (const double r : std::span(rings_).first(rings_.size() - 1)) {
+                const double here = brightest * most(out.edge, pair.point, side, r);
                 const double own = scale_ / 2 * std::pow(out.edge.length / r, 2);
                 pair.most.push_back(here < faint * own ? 0 : here);
             }
@@ -168,19 +171,20 @@ double PointFringes<Point>::brightest(double r, const SpikeAxes &spike) const {
 }
 
 template <class Point> void PointFringes<Point>::add(const PixelRow &row, double floor) const {
-    const auto end = [&](const Pair &pair) {
-        const auto faint = std::ranges::find_if(pair.most, [&](double m) { return m <= floor; });
-        return std::min(fringes_end,
-                        ring(nearest_, static_cast<size_t>(faint - pair.most.begin())));
-    };
     for (const Edge &edge : edges_) {
         const SpikeAxes &axes = edge.edge.axes;
         for (const Run &run : runs_along(axes, row, reach_, nearest_, fringes_end)) {
-            const auto middle = static_cast<double>(run.first + run.last) / 2;
-            const bool behind = axes.along(row.x + middle, row.y) < 0;
-            for (const Pair &pair : edge.pairs[behind ? 1 : 0]) {
-                const Run lit =
-                    between(run, axes.along(row.x, row.y), axes.nx, -end(pair), end(pair));
+            const double here = axes.along(row.x, row.y);
+            const double first = here + axes.nx * static_cast<double>(run.first);
+            const double last = here + axes.nx * static_cast<double>(run.last);
+            const auto [low, high] = std::minmax({std::abs(first), std::abs(last)});
+            for (const Pair &pair : edge.pairs[first + last < 0 ? 1 : 0]) {
+                const auto faint =
+                    std::ranges::find_if(pair.most, [&](double m) { return m <= floor; });
+                const double end = rings_[static_cast<size_t>(faint - pair.most.begin())];
+                if (low > end)
+                    continue;
+                const Run lit = high > end ? between(run, here, axes.nx, -end, end) : run;
                 if (lit.first > lit.last)
                     continue;
                 const PixelRow part = row.part(lit.first, lit.last);

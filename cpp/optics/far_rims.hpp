@@ -69,7 +69,7 @@ using Distances = std::array<double, RimTable::distances>;
 
 // Some pixels of a row: positions and distances from the star, native pixels.
 struct PixelBlock {
-    static constexpr size_t size = 16;
+    static constexpr size_t size = 8;
     using Values = std::array<double, size>;
     Values x, y, r;
 };

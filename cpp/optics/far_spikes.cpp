@@ -72,7 +72,9 @@ std::vector<Run> runs_along(const SpikeAxes &axes, const PixelRow &row, double r
     const auto &[nx, ny] = axes;
     if (std::abs(row.y) > farthest + reach)
         return {};
-    std::vector<double> roots{-ny * row.y / nx}; // along = 0
+    std::vector<double> roots;
+    roots.reserve(9);
+    roots.push_back(-ny * row.y / nx); // along = 0
     for (const double side : {-1.0, 1.0}) {
         roots.push_back((nx * row.y - side * reach) / ny);
         for (const double end : {nearest, farthest})
@@ -168,6 +170,7 @@ void Spike::add(const PixelRow &row, double floor) const {
     const double product = std::sqrt(2 * scale_ * tail_ / floor); // of along and across
     const double farthest = std::sqrt(2 * scale_ * most_ / floor);
     std::vector<double> roots;
+    roots.reserve(10);
     for (const double side : {-1.0, 1.0}) {
         add_roots(roots, -nx * ny, (nx * nx - ny * ny) * row.y,
                   nx * ny * row.y * row.y - side * product);
