@@ -108,7 +108,8 @@ WFPSF_VECTORISED void add_halo(const HaloTable &halo, double x0, double y, size_
     for (size_t i = 0; i < n; ++i) {
         const double x = x0 + static_cast<double>(i);
         const double r2 = x * x + y * y, r = std::sqrt(r2);
-        const auto place = RimTable::place(x, y, halo.nearest / r);
+        const auto place =
+            RimTable::place(RimTable::row_of(x, y), RimTable::column_of(halo.nearest / r));
         light[i] += (place.of(halo.table) + halo.corners / r) / (r2 * r);
     }
 }

@@ -170,7 +170,7 @@ RimTable::Vector RimPoint::position(double ux, double uy) const {
 }
 
 double RimPoint::most(double ux, double uy, double r, double reach) const {
-    const auto at = RimTable::place(ux, uy, nearest / r);
+    const auto at = RimTable::place(RimTable::row_of(ux, uy), RimTable::column_of(nearest / r));
     const auto width = static_cast<int>(reach / r * RimTable::directions / 4) + 1;
     double square = 0;
     for (int i = -width; i <= width + 1; ++i)

@@ -48,9 +48,13 @@ struct RimTable {
             return low + s * (high - low);
         }
     };
-    [[gnu::always_inline]] static Place place(double x, double y, double nearest_over_r) {
-        const double row = std::min(diamond(x, y) * (directions / 4.0), directions - 1e-6);
-        const double column = std::min(std::sqrt(nearest_over_r) * distances, distances - 1e-6);
+    [[gnu::always_inline]] static double row_of(double x, double y) {
+        return std::min(diamond(x, y) * (directions / 4.0), directions - 1e-6);
+    }
+    [[gnu::always_inline]] static double column_of(double nearest_over_r) {
+        return std::min(std::sqrt(nearest_over_r) * distances, distances - 1e-6);
+    }
+    [[gnu::always_inline]] static Place place(double row, double column) {
         const auto j = static_cast<int32_t>(row), c = static_cast<int32_t>(column);
         return {j, c, row - j, column - c};
     }
@@ -96,12 +100,16 @@ struct RimPoint {
         return oval.x * x + oval.y * y + side * std::sqrt(a * a + b * b);
     }
     [[gnu::always_inline]] void amplitudes(const PixelBlock &at, AmplitudeBlock &out) const {
-        const double *table_re = re.data(), *table_im = im.data(), *table_waves = waves.data();
+        PixelBlock::Values row, column;
         for (size_t i = 0; i < at.size; ++i) {
-            const auto place = RimTable::place(at.x[i], at.y[i], nearest / at.r[i]);
-            const double *wave = table_waves + place.row;
-            out.re[i] = place.of(table_re);
-            out.im[i] = place.of(table_im);
+            row[i] = RimTable::row_of(at.x[i], at.y[i]);
+            column[i] = RimTable::column_of(nearest / at.r[i]);
+        }
+        for (size_t i = 0; i < at.size; ++i) {
+            const auto place = RimTable::place(row[i], column[i]);
+            const double *wave = waves.data() + place.row;
+            out.re[i] = place.of(re.data());
+            out.im[i] = place.of(im.data());
             out.waves[i] = wave[0] + place.s * (wave[1] - wave[0]);
         }
     }
