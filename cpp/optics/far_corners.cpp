@@ -5,6 +5,7 @@ namespace wfpsf {
 
 double Corner::most(double ux, double uy, double r, double reach) const {
     PixelBlock at;
+    at.size = PixelBlock::lanes;
     for (size_t i = 0; i < at.size; ++i) {
         const double aside = (static_cast<double>(i % 3) - 1) * reach;
         at.x[i] = ux * r - uy * aside;
@@ -13,8 +14,10 @@ double Corner::most(double ux, double uy, double r, double reach) const {
     }
     AmplitudeBlock sent;
     amplitudes(at, sent);
-    const auto [least, most] = std::ranges::minmax(sent.im);
-    return std::max(-least, most);
+    double most = 0;
+    for (size_t i = 0; i < at.size; ++i)
+        most = std::max(most, std::abs(sent.im[i]));
+    return most;
 }
 
 std::vector<Corner> corners(const FarSource &source, const PupilEdges &edges) {

@@ -104,11 +104,12 @@ template <class Point> struct PairTable {
 template <class Point>
 WFPSF_VECTORISED void add_pair(const PairTable<Point> &pair, double x0, double y, size_t n,
                                double *light) {
-    constexpr size_t size = PixelBlock::size;
-    for (size_t first = 0; first < n; first += size) {
-        PixelBlock at; // the last pixel again beyond the row
-        for (size_t i = 0; i < size; ++i) {
-            at.x[i] = x0 + static_cast<double>(std::min(first + i, n - 1));
+    for (size_t first = 0; first < n; first += PixelBlock::most) {
+        const size_t count = std::min(PixelBlock::most, n - first);
+        PixelBlock at; // beyond the row its last pixel again
+        at.size = (count + PixelBlock::lanes - 1) / PixelBlock::lanes * PixelBlock::lanes;
+        for (size_t i = 0; i < at.size; ++i) {
+            at.x[i] = x0 + static_cast<double>(first + std::min(i, count - 1));
             at.y[i] = y;
             at.r[i] = std::sqrt(at.x[i] * at.x[i] + y * y);
         }
@@ -116,7 +117,7 @@ WFPSF_VECTORISED void add_pair(const PairTable<Point> &pair, double x0, double y
         pair.point.amplitudes(at, sent);
         const auto [nx, ny] = pair.edge.axes;
         PixelBlock::Values entry, column, re, im, side; // side: the sign of the path
-        for (size_t i = 0; i < size; ++i) {
+        for (size_t i = 0; i < at.size; ++i) {
             const double x = at.x[i], r = at.r[i];
             const double along = nx * x + ny * y, across = nx * y - ny * x;
             const double path =
@@ -132,7 +133,7 @@ WFPSF_VECTORISED void add_pair(const PairTable<Point> &pair, double x0, double y
             re[i] = factor * (sent.re[i] * cosine + sent.im[i] * sine);
             im[i] = factor * (sent.im[i] * cosine - sent.re[i] * sine);
         }
-        for (size_t i = 0; i < std::min(size, n - first); ++i) {
+        for (size_t i = 0; i < count; ++i) {
             const auto cell = static_cast<int32_t>(entry[i]),
                        left = static_cast<int32_t>(column[i]);
             const CubicWeights of_path(entry[i] - cell), of_edge(column[i] - left);

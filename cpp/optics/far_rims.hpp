@@ -71,10 +71,11 @@ using Distances = std::array<double, RimTable::distances>;
     return s * s * (3 - 2 * s);
 }
 
-// Some pixels of a row: positions and distances from the star, native pixels.
+// Some pixels: positions and distances from the star, native pixels.
 struct PixelBlock {
-    static constexpr size_t size = 8;
-    using Values = std::array<double, size>;
+    static constexpr size_t most = 32, lanes = 8;
+    using Values = std::array<double, most>;
+    size_t size; // a multiple of the lanes, so that loops are vector instructions alone
     Values x, y, r;
 };
 
