@@ -201,8 +201,9 @@ void Spike::add(const PixelRow &row, double floor) const {
     };
     const auto profile = rounding_ > 0 ? add_profile<true> : add_profile<false>;
     const auto tail = rounding_ > 0 ? add_tail<true> : add_tail<false>;
+    const double inside = reach_ * (1 - 1e-9); // at its end a cubic has no next entry
     for (const Run &run : runs) {
-        const Run in_table = between(run, axes_.across(row.x, row.y), -ny, -reach_, reach_);
+        const Run in_table = between(run, axes_.across(row.x, row.y), -ny, -inside, inside);
         draw(tail, run.first, in_table.first - 1);
         draw(profile, in_table.first, in_table.last);
         draw(tail, in_table.last + 1, run.last);
