@@ -4,11 +4,19 @@
 namespace wfpsf {
 
 double Corner::most(double ux, double uy, double r, double reach) const {
-    double most = 0;
-    for (const double aside : {-reach, 0.0, reach}) {
-        const double px = ux * r - uy * aside, py = uy * r + ux * aside;
-        most = std::max(most, std::abs(amplitude(px, py, std::hypot(px, py)).im));
+    PixelBlock at;
+    at.size = PixelBlock::lanes;
+    for (size_t i = 0; i < at.size; ++i) {
+        const double aside = (static_cast<double>(i % 3) - 1) * reach;
+        at.x[i] = ux * r - uy * aside;
+        at.y[i] = uy * r + ux * aside;
+        at.r[i] = std::hypot(r, aside);
     }
+    AmplitudeBlock sent;
+    amplitudes(at, sent);
+    double most = 0;
+    for (size_t i = 0; i < at.size; ++i)
+        most = std::max(most, std::abs(sent.im[i]));
     return most;
 }
 

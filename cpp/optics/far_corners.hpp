@@ -28,18 +28,33 @@ struct Corner {
 
     RimTable::Vector position(double, double) const { return {x, y}; }
     [[gnu::always_inline]] double place(double ux, double uy) const { return x * ux + y * uy; }
-    [[gnu::always_inline]] RimPoint::Amplitude amplitude(double px, double py, double r) const {
-        constexpr double least = 0.01; // nearer to a spike's line it is an edge's light
-        double sum = 0;
-        for (const Piece &piece : pieces) {
-            const double t = (piece.tx * px + piece.ty * py) / r;
-            const double share =
-                piece.rounding > 0 ? corner_share(std::sqrt(piece.rounding * r) * std::abs(t)) : 1;
-            sum += share * (piece.nx * px + piece.ny * py) / r * t / std::max(t * t, least);
-        }
-        return {0, sum / (2 * std::numbers::pi * std::sqrt(per_pixel * r)), phase};
+    [[gnu::always_inline]] void amplitudes(const PixelBlock &at, AmplitudeBlock &out) const {
+        out.re.fill(0);
+        out.im.fill(0);
+        out.waves.fill(phase);
+        for (const Piece &piece : pieces)
+            add(piece, at, out.im);
+        for (size_t i = 0; i < at.size; ++i)
+            out.im[i] /= 2 * std::numbers::pi * std::sqrt(per_pixel * at.r[i]);
     }
     double most(double ux, double uy, double r, double reach) const;
+
+  private:
+    [[gnu::always_inline]] static void add(const Piece &piece, const PixelBlock &at,
+                                           PixelBlock::Values &sum) {
+        constexpr double least = 0.01; // nearer to a spike's line it is an edge's light
+        const auto [nx, ny, tx, ty, rounding] = piece;
+        PixelBlock::Values share;
+        share.fill(1);
+        if (rounding > 0)
+            for (size_t i = 0; i < at.size; ++i)
+                share[i] = corner_share(std::abs(tx * at.x[i] + ty * at.y[i]) *
+                                        std::sqrt(rounding / at.r[i]));
+        for (size_t i = 0; i < at.size; ++i) {
+            const double n = nx * at.x[i] + ny * at.y[i], t = tx * at.x[i] + ty * at.y[i];
+            sum[i] += share[i] * n * t / std::max(t * t, least * at.r[i] * at.r[i]);
+        }
+    }
 };
 
 // Those where the outline turns.

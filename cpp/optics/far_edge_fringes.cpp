@@ -35,10 +35,11 @@ EdgeFringes::EdgeFringes(const FarSource &source, const EdgeColours &colours,
             continue;
         const auto [nx, ny] = table.axes();
         Group group{table.axes(), table.end(), reach_, std::sqrt(3 * colours.variance(-ny, nx))};
-        for (const EdgeColours::Edge &edge : colours.edges()) {
+        for (size_t i = 0; i < colours.edges().size(); ++i) {
+            const EdgeColours::Edge &edge = colours.edges()[i];
             if (std::ranges::count(table.members(), edge.straight) == 0)
                 continue;
-            Member member{edge, colours.waves(edge)};
+            Member member{edge, colours.waves(i)};
             // The visibility holds a root of the wavelength that two edges do not have.
             for (ColourWaves &wave : member.waves)
                 for (size_t m = 0; m < far_colours; ++m) {

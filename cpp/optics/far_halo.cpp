@@ -2,9 +2,12 @@
 #include "optics/far_halo.hpp"
 
 #include "numerics/dispatch.hpp"
+#include "numerics/elementary.hpp"
+#include "numerics/phasor.hpp"
 
 #include <algorithm>
-#include <complex>
+#include <array>
+#include <cmath>
 #include <numbers>
 
 namespace wfpsf {
@@ -12,6 +15,42 @@ namespace wfpsf {
 namespace {
 
 constexpr double pi = std::numbers::pi;
+
+// What a rim's point sends in one direction, by distance from the farthest on.
+struct Ray {
+    const double *re, *im;
+    double place, waves;
+    bool dark() const {
+        return std::ranges::all_of(std::array{0, RimTable::distances - 1},
+                                   [&](int j) { return re[j] == 0 && im[j] == 0; });
+    }
+};
+
+// Of two rays, by the path between them.
+struct Coherence {
+    double turns; // per path
+    double fade;  // per path squared: logarithm
+};
+
+// Adds 2 Re(a conj(b)) times the coherence.
+WFPSF_VECTORISED void add_fringes(const Ray &a, const Ray &b, const Coherence &coherence,
+                                  const Distances &distance, double *light) {
+    const double apart = a.place - b.place, waves = a.waves - b.waves;
+    const double *a_re = a.re, *a_im = a.im, *b_re = b.re, *b_im = b.im;
+    const auto [turns, fade] = coherence;
+    constexpr double most = 36; // what is left is rounding
+    size_t first = 0;
+    while (first < distance.size() && fade * std::pow(distance[first] * apart, 2) > most)
+        ++first;
+    for (size_t j = first; j < distance.size(); ++j) {
+        const double path = distance[j] * apart;
+        double cosine, sine;
+        phasor(path * turns + waves, cosine, sine);
+        const double re = a_re[j] * b_re[j] + a_im[j] * b_im[j];
+        const double im = a_im[j] * b_re[j] - a_re[j] * b_im[j];
+        light[j] += 2 * branchless_exp(-fade * path * path) * (re * cosine - im * sine);
+    }
+}
 
 } // namespace
 
@@ -22,37 +61,32 @@ Halo::Halo(const FarSource &source, const PupilEdges &edges, const std::vector<R
     for (size_t q = 0; q < source.spectrum.size(); ++q)
         spread += source.spectrum.weight[q] *
                   std::pow(1 / source.spectrum.wavelength[q] - 1 / wavelength, 2);
-    const double scale =
-        source.pixel() * source.pixel() / (source.area() * wavelength * wavelength * 4 * pi * pi);
+    const Coherence coherence{1 / wavelength, 2 * pi * pi * spread};
+    Distances distance;
+    for (size_t j = 0; j < distance.size(); ++j)
+        distance[j] = source.pixel() * RimTable::distance(static_cast<int>(j + 1), nearest_);
     for (int i = 0; i < RimTable::directions; ++i) {
         const auto [ux, uy] = RimTable::direction(i);
-        for (int j = 1; j <= RimTable::distances; ++j) {
-            const size_t entry = RimTable::entry(i, j);
-            const double r = RimTable::distance(j, nearest_);
-            const double k = r * source.pixel() / wavelength;
-            std::vector<std::complex<double>> amplitudes;
-            std::vector<double> places;
-            double sum = 0;
-            for (const RimPoint &point : points) {
-                const std::complex<double> table{point.re[entry], point.im[entry]};
-                if (table == 0.0)
-                    continue;
-                const double place = point.place(ux, uy);
-                const auto amplitude =
-                    table *
-                    std::polar(1.0, 2 * pi * (k * place + point.waves[static_cast<size_t>(i)]));
-                sum += std::norm(amplitude);
-                for (size_t b = 0; b < places.size(); ++b) {
-                    const double path = (place - places[b]) * r * source.pixel();
-                    const double seen = std::exp(-2 * pi * pi * spread * path * path);
-                    sum += 2 * seen * (amplitude * std::conj(amplitudes[b])).real();
-                }
-                amplitudes.push_back(amplitude);
-                places.push_back(place);
-            }
-            table_[entry] = scale * sum / (k * k * k) * r * r * r;
-            most_ = std::max(most_, table_[entry]);
+        const size_t first = RimTable::entry(i, 1);
+        double *light = table_.data() + first;
+        std::vector<Ray> rays;
+        for (const RimPoint &point : points) {
+            const Ray ray{point.re.data() + first, point.im.data() + first, point.place(ux, uy),
+                          point.waves[static_cast<size_t>(i)]};
+            if (ray.dark())
+                continue;
+            for (size_t j = 0; j < distance.size(); ++j)
+                light[j] += ray.re[j] * ray.re[j] + ray.im[j] * ray.im[j];
+            for (const Ray &other : rays)
+                add_fringes(ray, other, coherence, distance, light);
+            rays.push_back(ray);
         }
+    }
+    // Over (k / r)^3.
+    const double scale = wavelength / (source.pixel() * source.area() * 4 * pi * pi);
+    for (double &light : table_) {
+        light *= scale;
+        most_ = std::max(most_, light);
     }
     RimTable::close(table_);
     const auto rounded = std::ranges::count_if(
@@ -74,7 +108,8 @@ WFPSF_VECTORISED void add_halo(const HaloTable &halo, double x0, double y, size_
     for (size_t i = 0; i < n; ++i) {
         const double x = x0 + static_cast<double>(i);
         const double r2 = x * x + y * y, r = std::sqrt(r2);
-        const auto place = RimTable::place(x, y, halo.nearest / r);
+        const auto place =
+            RimTable::place(RimTable::row_of(x, y), RimTable::column_of(halo.nearest / r));
         light[i] += (place.of(halo.table) + halo.corners / r) / (r2 * r);
     }
 }

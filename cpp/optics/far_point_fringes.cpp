@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <span>
 
 namespace wfpsf {
 
@@ -39,6 +40,9 @@ PointFringes<Point>::PointFringes(const FarSource &source, const EdgeColours &co
       wavelength_(source.mean_wavelength()), pixel_(source.pixel()),
       scale_(1 / (2 * pi * pi * source.area())), reach_(colours.reach()),
       per_across_(colours.per_across()) {
+    for (size_t j = 0; ring(nearest_, j) < fringes_end; ++j)
+        rings_.push_back(ring(nearest_, j));
+    rings_.push_back(fringes_end);
     for (size_t i = 0; i < colours.edges().size(); ++i)
         edges_.push_back(edge(colours, i, known));
 }
@@ -53,11 +57,12 @@ typename PointFringes<Point>::Edge PointFringes<Point>::edge(const EdgeColours &
         if (known(out.edge.straight, points_[p]))
             continue;
         const auto [x, y] = points_[p].position(nx, ny);
-        out.waves.push_back(colours.waves(out.edge, x, y));
+        out.waves.push_back(colours.waves(i, x, y));
+        const double brightest = wfpsf::most(out.waves.back());
         for (const size_t side : {0, 1}) {
             Pair pair{seen_from(p, side, points_[p]), out.waves.size() - 1, {}};
-            for (size_t j = 0; ring(nearest_, j) < fringes_end; ++j) {
-                const double r = ring(nearest_, j), here = most(out, pair, side, r);
+            for (const double r : std::span(rings_).first(rings_.size() - 1)) {
+                const double here = brightest * most(out.edge, pair.point, side, r);
                 const double own = scale_ / 2 * std::pow(out.edge.length / r, 2);
                 pair.most.push_back(here < faint * own ? 0 : here);
             }
@@ -72,14 +77,15 @@ typename PointFringes<Point>::Edge PointFringes<Point>::edge(const EdgeColours &
 }
 
 template <class Point>
-double PointFringes<Point>::most(const Edge &edge, const Pair &pair, size_t side, double r) const {
-    const auto &[axes, x, y, length, straight] = edge.edge;
+double PointFringes<Point>::most(const EdgeColours::Edge &edge, size_t p, size_t side,
+                                 double r) const {
+    const auto &[axes, x, y, length, straight] = edge;
     const double way = side == 0 ? 1 : -1, ux = way * axes.nx, uy = way * axes.ny;
-    const Point &point = points_[pair.point];
+    const Point &point = points_[p];
     const double path = std::abs(way * axes.along(x, y) - point.place(ux, uy)) * r -
                         length * reach_; // to the spike's sides
-    return scale_ * wfpsf::most(edge.waves[pair.waves]) * point.most(ux, uy, r, reach_) *
-           visibility_->most(path * pixel_) / (r * r * std::sqrt(r * pixel_ / wavelength_));
+    return scale_ * point.most(ux, uy, r, reach_) * visibility_->most(path * pixel_) /
+           (r * r * std::sqrt(r * pixel_ / wavelength_));
 }
 
 // ----------------------------------------------------------------------------------------- drawing
@@ -98,34 +104,49 @@ template <class Point> struct PairTable {
 template <class Point>
 WFPSF_VECTORISED void add_pair(const PairTable<Point> &pair, double x0, double y, size_t n,
                                double *light) {
-    const auto [nx, ny] = pair.edge.axes;
-    for (size_t i = 0; i < n; ++i) {
-        const double x = x0 + static_cast<double>(i);
-        const double along = nx * x + ny * y, across = nx * y - ny * x;
-        const double r2 = x * x + y * y, r = std::sqrt(r2);
-        const auto amplitude = pair.point.amplitude(x, y, r);
-        const double path =
-            pair.pixel * (pair.edge.x * x + pair.edge.y * y - pair.point.place(x, y)) -
-            amplitude.waves * pair.wavelength;
-        const double entry = std::min(std::abs(path) * pair.per_path, pair.longest);
-        const double column = (across + pair.reach) * pair.per_across;
-        const auto cell = static_cast<int32_t>(entry), left = static_cast<int32_t>(column);
-        const CubicWeights of_path(entry - cell), of_edge(column - left);
-        const double sign = path < 0 ? -1 : 1;
-        double sum_re = 0, sum_im = 0;
-        for (size_t m = 0; m < far_colours; ++m) {
-            double v_re, v_im, e_re, e_im;
-            of_path.read(pair.visibility + cell, m, v_re, v_im);
-            of_edge.read(pair.waves + left, m, e_re, e_im);
-            v_im *= sign;
-            sum_re += v_re * e_re - v_im * e_im;
-            sum_im += v_re * e_im + v_im * e_re;
+    for (size_t first = 0; first < n; first += PixelBlock::most) {
+        const size_t count = std::min(PixelBlock::most, n - first);
+        PixelBlock at; // beyond the row its last pixel again
+        at.size = (count + PixelBlock::lanes - 1) / PixelBlock::lanes * PixelBlock::lanes;
+        for (size_t i = 0; i < at.size; ++i) {
+            at.x[i] = x0 + static_cast<double>(first + std::min(i, count - 1));
+            at.y[i] = y;
+            at.r[i] = std::sqrt(at.x[i] * at.x[i] + y * y);
         }
-        double cosine, sine;
-        phasor(path * pair.middle, cosine, sine);
-        light[i] += pair.scale * along / (r2 * r * std::sqrt(r)) * within(across / pair.reach) *
-                    ((sum_re * cosine - sum_im * sine) * amplitude.re +
-                     (sum_re * sine + sum_im * cosine) * amplitude.im);
+        AmplitudeBlock sent;
+        pair.point.amplitudes(at, sent);
+        const auto [nx, ny] = pair.edge.axes;
+        PixelBlock::Values entry, column, re, im, side; // side: the sign of the path
+        for (size_t i = 0; i < at.size; ++i) {
+            const double x = at.x[i], r = at.r[i];
+            const double along = nx * x + ny * y, across = nx * y - ny * x;
+            const double path =
+                pair.pixel * (pair.edge.x * x + pair.edge.y * y - pair.point.place(x, y)) -
+                sent.waves[i] * pair.wavelength;
+            entry[i] = std::min(std::abs(path) * pair.per_path, pair.longest);
+            column[i] = (across + pair.reach) * pair.per_across;
+            side[i] = std::copysign(1.0, path);
+            double cosine, sine;
+            phasor(path * pair.middle, cosine, sine);
+            const double factor =
+                pair.scale * along / (r * r * r * std::sqrt(r)) * within(across / pair.reach);
+            re[i] = factor * (sent.re[i] * cosine + sent.im[i] * sine);
+            im[i] = factor * (sent.im[i] * cosine - sent.re[i] * sine);
+        }
+        for (size_t i = 0; i < count; ++i) {
+            const auto cell = static_cast<int32_t>(entry[i]),
+                       left = static_cast<int32_t>(column[i]);
+            const CubicWeights of_path(entry[i] - cell), of_edge(column[i] - left);
+            std::array<double, far_colours> sum;
+            for (size_t m = 0; m < far_colours; ++m) {
+                double v_re, v_im, e_re, e_im;
+                of_path.read(pair.visibility + cell, m, v_re, v_im);
+                of_edge.read(pair.waves + left, m, e_re, e_im);
+                sum[m] = v_re * (e_re * re[i] + e_im * im[i]) +
+                         side[i] * v_im * (e_re * im[i] - e_im * re[i]);
+            }
+            light[first + i] += total(sum);
+        }
     }
 }
 
@@ -151,19 +172,20 @@ double PointFringes<Point>::brightest(double r, const SpikeAxes &spike) const {
 }
 
 template <class Point> void PointFringes<Point>::add(const PixelRow &row, double floor) const {
-    const auto end = [&](const Pair &pair) {
-        const auto faint = std::ranges::find_if(pair.most, [&](double m) { return m <= floor; });
-        return std::min(fringes_end,
-                        ring(nearest_, static_cast<size_t>(faint - pair.most.begin())));
-    };
     for (const Edge &edge : edges_) {
         const SpikeAxes &axes = edge.edge.axes;
         for (const Run &run : runs_along(axes, row, reach_, nearest_, fringes_end)) {
-            const auto middle = static_cast<double>(run.first + run.last) / 2;
-            const bool behind = axes.along(row.x + middle, row.y) < 0;
-            for (const Pair &pair : edge.pairs[behind ? 1 : 0]) {
-                const Run lit =
-                    between(run, axes.along(row.x, row.y), axes.nx, -end(pair), end(pair));
+            const double here = axes.along(row.x, row.y);
+            const double first = here + axes.nx * static_cast<double>(run.first);
+            const double last = here + axes.nx * static_cast<double>(run.last);
+            const auto [low, high] = std::minmax({std::abs(first), std::abs(last)});
+            for (const Pair &pair : edge.pairs[first + last < 0 ? 1 : 0]) {
+                const auto faint =
+                    std::ranges::find_if(pair.most, [&](double m) { return m <= floor; });
+                const double end = rings_[static_cast<size_t>(faint - pair.most.begin())];
+                if (low > end)
+                    continue;
+                const Run lit = high > end ? between(run, here, axes.nx, -end, end) : run;
                 if (lit.first > lit.last)
                     continue;
                 const PixelRow part = row.part(lit.first, lit.last);

@@ -42,10 +42,12 @@ template <class Point> class PointFringes {
         std::array<std::vector<Pair>, 2> pairs = {}; // on either side of the star
     };
     Edge edge(const EdgeColours &colours, size_t i, const Known &known) const;
-    double most(const Edge &edge, const Pair &pair, size_t side, double r) const;
+    // Of the light with a point, per amplitude of the edge.
+    double most(const EdgeColours::Edge &edge, size_t point, size_t side, double r) const;
 
     std::vector<Point> points_;
     std::shared_ptr<const Visibility> visibility_;
+    std::vector<double> rings_; // distances, native pixels
     double nearest_, wavelength_, pixel_, scale_, reach_, per_across_;
     std::vector<Edge> edges_;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "optics/far_rims.hpp"
 
+#include "numerics/dispatch.hpp"
+#include "numerics/phasor.hpp"
 #include "optics/fresnel.hpp"
 
 #include <numbers>
@@ -9,7 +11,6 @@ namespace wfpsf {
 
 namespace {
 
-using Complex = std::complex<double>;
 constexpr double pi = std::numbers::pi;
 
 // Part of an oval.
@@ -68,40 +69,66 @@ Stationary stationary(const Oval &o, const Wavefront &w, double ux, double uy, d
             .w_bend = (after - 2 * here + before) / (turn * turn)};
 }
 
-// Fresnel's integral from 0 without the waves that come from x itself when it is far off: those are
-// a corner's light.
-constexpr Complex far_off{0.5, 0.5};
-Complex fresnel_nearby(double x) {
-    const double a = std::abs(x), share = 1 - corner_share(a);
-    const Complex value = share > 0 ? far_off + share * (fresnel(a) - far_off) : far_off;
-    return x < 0 ? -value : value;
+// Fresnel's integral from 0 to an arc's end, without the waves that come from there itself when it
+// is far off: those are a corner's light. `own` is 0 where they are that of the edge that goes on.
+[[gnu::always_inline]] inline void fresnel_nearby(double x, double own, double &re, double &im) {
+    const double a = std::abs(x), share = own * (1 - corner_share(a)), sign = x < 0 ? -1 : 1;
+    double g, f, cosine, sine;
+    fresnel_auxiliary(a, g, f);
+    phasor(a * a / 4, cosine, sine);
+    re = sign * (0.5 - share * (g * cosine - f * sine));
+    im = sign * (0.5 - share * (g * sine + f * cosine));
 }
 
-// The part of the point's light that an arc has, by Fresnel's integral.
-Complex seen(const Arc &arc, double angle, double per_radian) {
-    if (arc.closed)
-        return {1, 1};
-    // Of the arc's middle, to find the turn.
-    const double middle = (arc.begin + arc.end) / 2;
-    const double off = std::remainder(angle - middle, 2 * pi);
-    const double begin = (arc.begin - middle - off) * per_radian;
-    const double end = (arc.end - middle - off) * per_radian;
-    if ((arc.smooth_begin && begin > 0) || (arc.smooth_end && end < 0))
-        return 0;
-    return (arc.smooth_end ? far_off : fresnel_nearby(end)) -
-           (arc.smooth_begin ? -far_off : fresnel_nearby(begin));
+// Adds the part of the point's light that an arc has, by Fresnel's integral.
+WFPSF_VECTORISED void add_seen(const Distances &begin, double begin_own, const Distances &end,
+                               double end_own, const Distances &weight, Distances &re,
+                               Distances &im) {
+    for (size_t j = 0; j < re.size(); ++j) {
+        double begin_re, begin_im, end_re, end_im;
+        fresnel_nearby(begin[j], begin_own, begin_re, begin_im);
+        fresnel_nearby(end[j], end_own, end_re, end_im);
+        re[j] += weight[j] * (end_re - begin_re);
+        im[j] += weight[j] * (end_im - begin_im);
+    }
 }
 
-// The amplitude over exp(2 pi i (k place + waves)), times k^(3/2) 2 pi i.
-Complex amplitude(const Rim &rim, const Stationary &at, double side, double k) {
-    const double bend = k * at.bend + at.w_bend;
-    const double per_radian = std::sqrt(2 * std::abs(bend));
-    Complex part = 0;
-    for (const Arc &arc : rim.arcs)
-        part += arc.outwards * seen(arc, at.angle - at.w_slope / bend, per_radian);
-    if (bend < 0)
-        part = std::conj(part);
-    return part * (side * at.speed * std::sqrt(k) / (per_radian * (1 + at.slope / k)));
+struct Amplitudes {
+    Distances re, im;
+};
+
+// Over exp(2 pi i (k place + waves)), times k^(3/2) 2 pi i; by distance from the farthest on.
+Amplitudes amplitudes(const Rim &rim, const Stationary &at, double side, const Distances &k) {
+    constexpr double endless = 100; // of Fresnel's integral
+    Distances shift, per_radian, re{}, im{};
+    for (size_t j = 0; j < k.size(); ++j) {
+        const double bend = k[j] * at.bend + at.w_bend;
+        shift[j] = at.w_slope / bend;
+        per_radian[j] = std::sqrt(2 * std::abs(bend));
+    }
+    for (const Arc &arc : rim.arcs) {
+        const double middle = (arc.begin + arc.end) / 2, half = (arc.end - arc.begin) / 2;
+        const double off = std::remainder(at.angle - middle, 2 * pi); // the nearest turn's
+        Distances begin, end, weight;
+        for (size_t j = 0; j < k.size(); ++j) {
+            begin[j] = (shift[j] - off - half) * per_radian[j];
+            end[j] = (shift[j] - off + half) * per_radian[j];
+            const bool dark = (arc.smooth_begin && begin[j] > 0) || (arc.smooth_end && end[j] < 0);
+            weight[j] = dark ? 0 : arc.outwards;
+        }
+        if (arc.closed) {
+            begin.fill(-endless);
+            end.fill(endless);
+        }
+        add_seen(begin, arc.smooth_begin ? 0 : 1, end, arc.smooth_end ? 0 : 1, weight, re, im);
+    }
+    for (size_t j = 0; j < k.size(); ++j) {
+        const double scale =
+            side * at.speed * std::sqrt(k[j]) / (per_radian[j] * (1 + at.slope / k[j]));
+        re[j] *= scale;
+        im[j] *= k[j] * at.bend + at.w_bend < 0 ? -scale : scale;
+    }
+    return {re, im};
 }
 
 bool lit(const Rim &rim, double angle) {
@@ -143,16 +170,16 @@ RimTable::Vector RimPoint::position(double ux, double uy) const {
 }
 
 double RimPoint::most(double ux, double uy, double r, double reach) const {
-    const auto at = RimTable::place(ux, uy, nearest / r);
+    const auto at = RimTable::place(RimTable::row_of(ux, uy), RimTable::column_of(nearest / r));
     const auto width = static_cast<int>(reach / r * RimTable::directions / 4) + 1;
-    double most = 0;
+    double square = 0;
     for (int i = -width; i <= width + 1; ++i)
         for (const int j : {at.column, at.column + 1}) {
             const int row = (at.row + i + RimTable::directions) % RimTable::directions;
             const size_t entry = RimTable::entry(row, j);
-            most = std::max(most, std::hypot(re[entry], im[entry]));
+            square = std::max(square, re[entry] * re[entry] + im[entry] * im[entry]);
         }
-    return most;
+    return std::sqrt(square);
 }
 
 std::vector<RimPoint> rim_points(const FarSource &source, const PupilEdges &edges) {
@@ -167,6 +194,10 @@ std::vector<RimPoint> rim_points(const FarSource &source, const PupilEdges &edge
                            std::vector<double>(RimTable::size),
                            std::vector<double>(RimTable::size),
                            std::vector<double>(RimTable::directions + 1)};
+            Distances k;
+            for (size_t j = 0; j < k.size(); ++j)
+                k[j] = RimTable::distance(static_cast<int>(j + 1), source.nearest) *
+                       source.pixel() / wavelength;
             for (int i = 0; i < RimTable::directions; ++i) {
                 const auto [ux, uy] = RimTable::direction(i);
                 const Oval &o = rim.oval;
@@ -175,12 +206,10 @@ std::vector<RimPoint> rim_points(const FarSource &source, const PupilEdges &edge
                     continue;
                 const Stationary at = stationary(rim.oval, w, ux, uy, side);
                 point.waves[static_cast<size_t>(i)] = at.waves;
-                for (int j = 1; j <= RimTable::distances; ++j) {
-                    const double r = RimTable::distance(j, source.nearest);
-                    const Complex value = amplitude(rim, at, side, r * source.pixel() / wavelength);
-                    point.re[RimTable::entry(i, j)] = value.real();
-                    point.im[RimTable::entry(i, j)] = value.imag();
-                }
+                const auto first = static_cast<std::ptrdiff_t>(RimTable::entry(i, 1));
+                const auto [re, im] = amplitudes(rim, at, side, k);
+                std::ranges::copy(re, point.re.begin() + first);
+                std::ranges::copy(im, point.im.begin() + first);
             }
             RimTable::close(point.re);
             RimTable::close(point.im);

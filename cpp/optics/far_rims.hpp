@@ -7,6 +7,7 @@
 #include "optics/far_spikes.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -47,13 +48,20 @@ struct RimTable {
             return low + s * (high - low);
         }
     };
-    [[gnu::always_inline]] static Place place(double x, double y, double nearest_over_r) {
-        const double row = std::min(diamond(x, y) * (directions / 4.0), directions - 1e-6);
-        const double column = std::min(std::sqrt(nearest_over_r) * distances, distances - 1e-6);
+    [[gnu::always_inline]] static double row_of(double x, double y) {
+        return std::min(diamond(x, y) * (directions / 4.0), directions - 1e-6);
+    }
+    [[gnu::always_inline]] static double column_of(double nearest_over_r) {
+        return std::min(std::sqrt(nearest_over_r) * distances, distances - 1e-6);
+    }
+    [[gnu::always_inline]] static Place place(double row, double column) {
         const auto j = static_cast<int32_t>(row), c = static_cast<int32_t>(column);
         return {j, c, row - j, column - c};
     }
 };
+
+// From the farthest on.
+using Distances = std::array<double, RimTable::distances>;
 
 // How much of what Fresnel's integral has from where an edge ends, x from the point, is a corner's
 // light by itself.
@@ -62,6 +70,19 @@ struct RimTable {
     const double s = std::clamp((x - none) / (whole - none), 0.0, 1.0);
     return s * s * (3 - 2 * s);
 }
+
+// Some pixels: positions and distances from the star, native pixels.
+struct PixelBlock {
+    static constexpr size_t most = 32, lanes = 8;
+    using Values = std::array<double, most>;
+    size_t size; // a multiple of the lanes, so that loops are vector instructions alone
+    Values x, y, r;
+};
+
+// What a point sends there.
+struct AmplitudeBlock {
+    PixelBlock::Values re, im, waves;
+};
 
 // One of an oval's two points, in front (towards the direction) or behind. Its amplitude is
 // exp(2 pi i (k place + waves)) / k^(3/2) times the table's, the light per unit of solid angle that
@@ -79,14 +100,19 @@ struct RimPoint {
         const double a = oval.half_width * x + oval.shear * y, b = oval.half_height * y;
         return oval.x * x + oval.y * y + side * std::sqrt(a * a + b * b);
     }
-    // In the direction of (x, y), which are native pixels, r long.
-    struct Amplitude {
-        double re, im, waves;
-    };
-    [[gnu::always_inline]] Amplitude amplitude(double x, double y, double r) const {
-        const auto at = RimTable::place(x, y, nearest / r);
-        const double *wave = waves.data() + at.row;
-        return {at.of(re.data()), at.of(im.data()), wave[0] + at.s * (wave[1] - wave[0])};
+    [[gnu::always_inline]] void amplitudes(const PixelBlock &at, AmplitudeBlock &out) const {
+        PixelBlock::Values row, column;
+        for (size_t i = 0; i < at.size; ++i) {
+            row[i] = RimTable::row_of(at.x[i], at.y[i]);
+            column[i] = RimTable::column_of(nearest / at.r[i]);
+        }
+        for (size_t i = 0; i < at.size; ++i) {
+            const auto place = RimTable::place(row[i], column[i]);
+            const double *wave = waves.data() + place.row;
+            out.re[i] = place.of(re.data());
+            out.im[i] = place.of(im.data());
+            out.waves[i] = wave[0] + place.s * (wave[1] - wave[0]);
+        }
     }
     // Of all amplitudes at the distance r, up to `reach` aside from the direction.
     double most(double ux, double uy, double r, double reach) const;

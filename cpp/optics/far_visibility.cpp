@@ -2,9 +2,9 @@
 #include "optics/far_visibility.hpp"
 
 #include "numerics/dispatch.hpp"
+#include "numerics/elementary.hpp"
 #include "numerics/phasor.hpp"
 #include "numerics/quadrature.hpp"
-#include "numerics/sinc.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -29,28 +29,70 @@ std::array<double, far_colours> lagrange(const std::array<double, far_colours> &
     return out;
 }
 
-// table[j] += share exp(2 pi i (j - 1) turn)
-WFPSF_VECTORISED void add_turning(const std::array<double, far_colours> &share, double turn,
-                                  std::span<ColourWaves> table) {
-    for (size_t j = 0; j < table.size(); ++j) {
-        double cosine, sine;
-        phasor((static_cast<double>(j) - 1) * turn, cosine, sine);
-        for (size_t m = 0; m < far_colours; ++m) {
-            table[j].re[m] += share[m] * cosine;
-            table[j].im[m] += share[m] * sine;
+// A wave that turns from one table entry to the next, and what the colours have of it.
+struct TurningWave {
+    double turn;
+    std::array<double, far_colours> share;
+};
+
+// table[j] += sum of share exp(2 pi i (j - 1) turn)
+WFPSF_VECTORISED void add_waves(std::span<const TurningWave> waves, std::span<ColourWaves> table) {
+    constexpr size_t block = 32;
+    for (size_t first = 0; first < table.size(); first += block) {
+        std::array<std::array<double, block>, far_colours> sum_re{}, sum_im{};
+        for (const TurningWave &wave : waves) {
+            std::array<double, block> re, im;
+            for (size_t j = 0; j < block; ++j)
+                phasor((static_cast<double>(first + j) - 1) * wave.turn, re[j], im[j]);
+            for (size_t m = 0; m < far_colours; ++m)
+                for (size_t j = 0; j < block; ++j) {
+                    sum_re[m][j] += wave.share[m] * re[j];
+                    sum_im[m][j] += wave.share[m] * im[j];
+                }
         }
+        for (size_t j = 0; j < std::min(block, table.size() - first); ++j)
+            for (size_t m = 0; m < far_colours; ++m) {
+                table[first + j].re[m] = sum_re[m][j];
+                table[first + j].im[m] = sum_im[m][j];
+            }
     }
 }
 
-// The same of one colour: from the phase `start` on.
-WFPSF_VECTORISED void add_turning(size_t colour, double weight, double start, double turn,
-                                  std::span<ColourWaves> table) {
-    for (size_t j = 0; j < table.size(); ++j) {
-        double cosine, sine;
-        phasor(start + static_cast<double>(j) * turn, cosine, sine);
-        table[j].re[colour] += weight * cosine;
-        table[j].im[colour] += weight * sine;
+// table[j] = sum over nodes of weight wave step^j
+WFPSF_VECTORISED void add_nodes(std::span<EdgeColours::Node> nodes, std::span<ColourWaves> table) {
+    for (ColourWaves &entry : table) {
+        ColourWaves sum{};
+        for (EdgeColours::Node &node : nodes)
+            for (size_t m = 0; m < far_colours; ++m) {
+                const double re = node.wave.re[m], im = node.wave.im[m];
+                sum.re[m] += node.weight[m] * re;
+                sum.im[m] += node.weight[m] * im;
+                node.wave.re[m] = re * node.step.re[m] - im * node.step.im[m];
+                node.wave.im[m] = re * node.step.im[m] + im * node.step.re[m];
+            }
+        entry = sum;
     }
+}
+
+[[gnu::always_inline]] inline double branchless_sinc(double t) {
+    const double a = std::abs(t) + 1e-12;
+    double cosine, sine;
+    phasor(a / 2, cosine, sine);
+    return sine / (pi * a);
+}
+
+// Times the pixel's and the blur's response to fringes with light from (x, y).
+WFPSF_VECTORISED void respond(const EdgeColours::Response &to, double x, double y,
+                              std::span<EdgeColours::Node> nodes) {
+    const auto [xx, xy, yy] = to.blur;
+    for (EdgeColours::Node &node : nodes)
+        for (size_t m = 0; m < far_colours; ++m) {
+            const double fx = (node.x - x) * to.cycles[m], fy = (node.y - y) * to.cycles[m];
+            const double square = xx * fx * fx + 2 * xy * fx * fy + yy * fy * fy;
+            constexpr double most = 300;
+            node.weight[m] *= branchless_exp(-std::min(2 * pi * pi * square, most)) *
+                              branchless_sinc(to.width * fx) * branchless_sinc(to.width * fy);
+        }
 }
 
 } // namespace
@@ -66,13 +108,16 @@ Visibility::Visibility(const FarSource &source, double longest) {
         wavenumber_[m] = middle_ - half * std::cos(pi * (static_cast<double>(m) + 0.5) /
                                                    static_cast<double>(far_colours));
     table_.resize(static_cast<size_t>(longest * per_path_) + 4);
+    std::vector<TurningWave> waves;
     for (size_t q = 0; q < spectrum.size(); ++q) {
         const double wavelength = spectrum.wavelength[q];
-        auto share = lagrange(wavenumber_, 1 / wavelength);
-        for (double &value : share)
-            value *= spectrum.weight[q] * std::sqrt(wavelength / mean);
-        add_turning(share, (1 / wavelength - middle_) / per_path_, table_);
+        TurningWave wave{(1 / wavelength - middle_) / per_path_,
+                         lagrange(wavenumber_, 1 / wavelength)};
+        for (double &share : wave.share)
+            share *= spectrum.weight[q] * std::sqrt(wavelength / mean);
+        waves.push_back(wave);
     }
+    add_waves(waves, table_);
     most_.resize(table_.size());
     for (size_t j = table_.size(); j-- > 0;) {
         double re = 0, im = 0;
@@ -91,11 +136,16 @@ double Visibility::most(double path) const {
 
 EdgeColours::EdgeColours(const FarSource &source, const PupilEdges &edges,
                          const Visibility &visibility, double reach)
-    : source_(source), wavenumber_(visibility.wavenumbers()),
-      per_across_(2 * std::max(1.0, source.bandwidth())) {
+    : per_across_(2 * std::max(1.0, source.bandwidth())) {
     reach_ = std::ceil(reach * per_across_) / per_across_;
+    const auto &[xx, xy, yy] = source.settings.blur;
+    response_ = {{xx, source.settings.mirrored ? -xy : xy, yy},
+                 source.settings.pixel_response ? 1.0 : 0.0,
+                 {}};
+    for (size_t m = 0; m < far_colours; ++m)
+        response_.cycles[m] = source.pixel() * visibility.wavenumbers()[m];
     constexpr double most_turns = 3.2; // that the ends of a piece may differ by
-    const double turns = reach_ * source.pixel() * (wavenumber_.back() - wavenumber_.front());
+    const double turns = reach_ * (response_.cycles.back() - response_.cycles.front());
     for (size_t i = 0; i < edges.straight.size(); ++i) {
         const auto &[x, y, to_x, to_y] = edges.straight[i];
         const double length = std::hypot(to_x - x, to_y - y);
@@ -107,59 +157,53 @@ EdgeColours::EdgeColours(const FarSource &source, const PupilEdges &edges,
                               y + middle * (to_y - y),
                               length / pieces,
                               i});
+            nodes_.push_back(nodes(source, visibility.wavenumbers(), edges_.back()));
         }
     }
 }
 
-double EdgeColours::variance(double ux, double uy) const {
-    const Covariance &blur = source_.settings.blur;
-    const double mirror = source_.settings.mirrored ? -1 : 1;
-    const double pixel = source_.settings.pixel_response ? 1.0 / 12 : 0;
-    return pixel + blur.xx * ux * ux + 2 * blur.xy * mirror * ux * uy + blur.yy * uy * uy;
-}
-
-// To fringes between points of the pupil so far apart.
-double EdgeColours::response(double x, double y, double wavenumber) const {
-    const double fx = x * source_.pixel() * wavenumber, fy = y * source_.pixel() * wavenumber;
-    const Covariance &blur = source_.settings.blur;
-    const double mirror = source_.settings.mirrored ? -1 : 1;
-    const double square = blur.xx * fx * fx + 2 * blur.xy * mirror * fx * fy + blur.yy * fy * fy;
-    const double blurred = std::exp(-2 * pi * pi * square);
-    return source_.settings.pixel_response ? blurred * sinc(fx) * sinc(fy) : blurred;
-}
-
-template <class Response>
-std::vector<ColourWaves> EdgeColours::integral(const Edge &edge,
-                                               const Response &response_to) const {
-    const auto &[nx, ny] = edge.axes;
-    const auto half = std::lround(reach_ * per_across_) + 2;
-    const double bluest = wavenumber_.back();
+std::vector<EdgeColours::Node> EdgeColours::nodes(const FarSource &source,
+                                                  const std::array<double, far_colours> &wavenumber,
+                                                  const Edge &edge) const {
     const GaussLegendre rule(
-        8 + gauss_legendre_points(pi * bluest * source_.pixel() * reach_ * edge.length, 1e-4));
-    std::vector<ColourWaves> out(static_cast<size_t>(2 * half + 1));
-    for (size_t i = 0; i < rule.x.size(); ++i) {
+        8 + gauss_legendre_points(pi * response_.cycles.back() * reach_ * edge.length, 1e-4));
+    std::vector<Node> out(rule.x.size());
+    for (size_t i = 0; i < out.size(); ++i) {
         const double s = rule.x[i] * edge.length / 2; // across the spike
-        const double at_x = edge.x - ny * s, at_y = edge.y + nx * s;
-        const double path = source_.optics.wavelength * source_.optics.wavefront(at_x, at_y);
+        Node &node = out[i];
+        node.x = edge.x - edge.axes.ny * s;
+        node.y = edge.y + edge.axes.nx * s;
+        node.weight.fill(rule.w[i] * edge.length / 2);
+        const double path = source.optics.wavelength * source.optics.wavefront(node.x, node.y);
         for (size_t m = 0; m < far_colours; ++m) {
-            const double turn = source_.pixel() * wavenumber_[m] * s / per_across_;
-            const double weight =
-                rule.w[i] * edge.length / 2 * response_to(at_x, at_y, wavenumber_[m]);
-            add_turning(m, weight, path * wavenumber_[m] - static_cast<double>(half) * turn, turn,
-                        out);
+            const double turn = response_.cycles[m] * s;
+            phasor(path * wavenumber[m] - (reach_ + 2 / per_across_) * turn, node.wave.re[m],
+                   node.wave.im[m]);
+            phasor(turn / per_across_, node.step.re[m], node.step.im[m]);
         }
     }
     return out;
 }
 
-std::vector<ColourWaves> EdgeColours::waves(const Edge &edge) const {
-    return integral(edge, [](double, double, double) { return 1.0; });
+double EdgeColours::variance(double ux, double uy) const {
+    const auto &[xx, xy, yy] = response_.blur;
+    return response_.width / 12 + xx * ux * ux + 2 * xy * ux * uy + yy * uy * uy;
 }
 
-std::vector<ColourWaves> EdgeColours::waves(const Edge &edge, double x, double y) const {
-    return integral(edge, [&](double at_x, double at_y, double wavenumber) {
-        return response(at_x - x, at_y - y, wavenumber);
-    });
+std::vector<ColourWaves> EdgeColours::table(std::vector<Node> nodes) const {
+    std::vector<ColourWaves> out(2 * static_cast<size_t>(std::lround(reach_ * per_across_)) + 5);
+    add_nodes(nodes, out);
+    return out;
+}
+
+std::vector<ColourWaves> EdgeColours::waves(size_t edge) const {
+    return table(nodes_[edge]);
+}
+
+std::vector<ColourWaves> EdgeColours::waves(size_t edge, double x, double y) const {
+    std::vector<Node> nodes = nodes_[edge];
+    respond(response_, x, y, nodes);
+    return table(std::move(nodes));
 }
 
 double most(std::span<const ColourWaves> waves) {

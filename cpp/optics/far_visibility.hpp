@@ -19,15 +19,24 @@ struct ColourWaves {
     std::array<double, far_colours> re, im;
 };
 
+// In pairs, which vector instructions add.
+[[gnu::always_inline]] inline double total(std::array<double, far_colours> sum) {
+    static_assert(far_colours == 8);
+    for (size_t m = 0; m < 4; ++m)
+        sum[m] += sum[m + 4];
+    return (sum[0] + sum[2]) + (sum[1] + sum[3]);
+}
+
 // Weights of Lagrange's cubic through the samples -1, 0, 1, 2 at 0 <= s < 1.
 struct CubicWeights {
     double w[4];
     [[gnu::always_inline]] explicit CubicWeights(double s) {
         const double a = s + 1, b = s - 1, c = s - 2;
-        w[0] = -s * b * c / 6;
+        constexpr double sixth = 1.0 / 6;
+        w[0] = -s * b * c * sixth;
         w[1] = a * b * c / 2;
         w[2] = -a * s * c / 2;
-        w[3] = a * s * b / 6;
+        w[3] = a * s * b * sixth;
     }
     // From the sample -1 on.
     [[gnu::always_inline]] void read(const ColourWaves *wave, size_t colour, double &re,
@@ -82,19 +91,32 @@ class EdgeColours {
 
     // From two steps before -reach on; times the pixel's and the blur's response to fringes with
     // light from (x, y).
-    std::vector<ColourWaves> waves(const Edge &edge) const;
-    std::vector<ColourWaves> waves(const Edge &edge, double x, double y) const;
+    std::vector<ColourWaves> waves(size_t edge) const;
+    std::vector<ColourWaves> waves(size_t edge, double x, double y) const;
     // Of the pixel and the blur in a direction of length one, native pixels squared.
     double variance(double ux, double uy) const;
 
-  private:
-    double response(double x, double y, double wavenumber) const;
-    template <class Response>
-    std::vector<ColourWaves> integral(const Edge &edge, const Response &response_to) const;
+    // A point of an edge: its share of the integral, and its wave from one position to the next.
+    struct Node {
+        double x, y;
+        std::array<double, far_colours> weight;
+        ColourWaves wave, step;
+    };
+    struct Response {
+        Covariance blur;                        // in the pupil's frame
+        double width;                           // of the pixel
+        std::array<double, far_colours> cycles; // per metre and native pixel
+    };
 
-    const FarSource &source_;
-    std::array<double, far_colours> wavenumber_;
+  private:
+    std::vector<Node> nodes(const FarSource &source,
+                            const std::array<double, far_colours> &wavenumber,
+                            const Edge &edge) const;
+    std::vector<ColourWaves> table(std::vector<Node> nodes) const;
+
+    Response response_;
     std::vector<Edge> edges_;
+    std::vector<std::vector<Node>> nodes_; // by edge
     double per_across_, reach_ = 0;
 };
 

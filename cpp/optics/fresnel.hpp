@@ -1,30 +1,28 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fresnel's integral by its auxiliary functions, good to 2e-3 (Abramowitz & Stegun 7.3.32, 7.3.33).
+// Fresnel's integral by its auxiliary functions, good to 2e-3 (Abramowitz & Stegun 7.3.32, 7.3.33),
+// without a branch as phasor().
 #pragma once
 
+#include "numerics/phasor.hpp"
+
 #include <cmath>
-#include <complex>
-#include <numbers>
 
 namespace wfpsf {
 
-// exp(-i pi x^2 / 2) times the integral of exp(i pi t^2 / 2) from x to infinity: smooth for x > 0.
-inline std::complex<double> fresnel_tail(double x) {
-    const double a = std::abs(x);
-    const double f = (1 + 0.926 * a) / (2 + a * (1.792 + a * 3.104));
-    const double g = 1 / (2 + a * (4.142 + a * (3.492 + a * 6.670)));
-    if (x >= 0)
-        return {g, f};
-    const double turn = std::numbers::pi / 2 * a * a;
-    return std::complex<double>(1, 1) * std::polar(1.0, -turn) - std::complex<double>(g, f);
+// exp(-i pi x^2 / 2) times the integral of exp(i pi t^2 / 2) from x > 0 to infinity: g + i f.
+[[gnu::always_inline]] inline void fresnel_auxiliary(double x, double &g, double &f) {
+    f = (1 + 0.926 * x) / (2 + x * (1.792 + x * 3.104));
+    g = 1 / (2 + x * (4.142 + x * (3.492 + x * 6.670)));
 }
 
-// C(x) + i S(x), the integral from 0 to x.
-inline std::complex<double> fresnel(double x) {
+// The same of any x.
+[[gnu::always_inline]] inline void fresnel_tail(double x, double &re, double &im) {
     const double a = std::abs(x);
-    const auto value = std::complex<double>(0.5, 0.5) -
-                       fresnel_tail(a) * std::polar(1.0, std::numbers::pi / 2 * a * a);
-    return x < 0 ? -value : value;
+    double g, f, cosine, sine;
+    fresnel_auxiliary(a, g, f);
+    phasor(-a * a / 4, cosine, sine);
+    re = x >= 0 ? g : cosine - sine - g;
+    im = x >= 0 ? f : cosine + sine - f;
 }
 
 } // namespace wfpsf
