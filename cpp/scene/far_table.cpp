@@ -229,16 +229,20 @@ std::vector<std::pair<double, double>> FarTables::places(const Region &image, bo
 }
 
 FarTables::FarTables(std::span<const FarLight> at_places, const Psf *exact, const Region &image,
-                     double radius, double floor)
-    : image_(image), middle_(sampled_middle(at_places[0], exact, radius, floor), radius) {
-    if (at_places.size() == 1)
+                     const Extent &extent)
+    : image_(image),
+      middle_(sampled_middle(at_places[0], exact, extent.radius, extent.floor), extent.radius) {
+    const double radius = extent.differences_radius;
+    if (at_places.size() == 1 || radius <= at_places[0].nearest())
         return;
+    // Of what is below a floor everywhere, differences are less.
+    constexpr double less = 0.3;
     std::array<std::array<std::optional<SampledLight>, 3>, 3> at; // [j][i]
     for (size_t k = 0; k < order.size(); ++k) {
         auto &sampled =
             at[static_cast<size_t>(order[k].second)][static_cast<size_t>(order[k].first)];
         sampled.emplace(per_pixel_of_differences, radius);
-        sampled->add(at_places[k], at_places[k].nearest(), floor);
+        sampled->add(at_places[k], at_places[k].nearest(), extent.floor / less);
     }
     for (auto &row : at)
         to_coefficients(*row[0], *row[1], *row[2]);

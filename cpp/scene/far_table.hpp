@@ -66,10 +66,15 @@ class FarTables {
     // where light is the same everywhere.
     static std::vector<std::pair<double, double>> places(const Region &image, bool varies);
 
+    struct Extent {
+        double radius;             // where the tables end, native pixels
+        double differences_radius; // those of the differences
+        double floor;              // share of the light: what gets less may be missing
+    };
     // `exact`, if there is one, is the PSF of the first place, and stands for its far light as far
     // as it reaches: from the pupil's edges then come the differences alone.
     FarTables(std::span<const FarLight> at_places, const Psf *exact, const Region &image,
-              double radius, double floor);
+              const Extent &extent);
 
     double radius() const { return middle_.radius(); }
 

@@ -110,16 +110,16 @@ template <class T> class Renderer {
         if (!far.needed)
             return;
         constexpr double below = 0.1; // light that sums of it must not count
-        double floor = INFINITY;
-        bool mixed = false;
+        const ColourFacts &facts = plan_.colour(static_cast<int32_t>(colour));
+        double floor = INFINITY, differing = 0;
         for (const PlannedGroup &g : plan_.groups())
             if (g.group.colour == static_cast<int32_t>(colour) && g.way.far > 0) {
                 floor = std::min(floor, below * g.way.far);
-                mixed = mixed || !g.way.own_far;
+                if (!g.way.own_far)
+                    differing = std::max(differing, facts.far_varies * g.group.brightest);
             }
         if (!std::isfinite(floor))
             return;
-        const ColourFacts &facts = plan_.colour(static_cast<int32_t>(colour));
         std::optional<Psf> exact;
         if (far.exact_radius > 0) {
             const auto [x, y] = FarTables::places(plan_.region(), false)[0];
@@ -127,9 +127,11 @@ template <class T> class Renderer {
                                               settings(far.exact_eps, far.exact_radius))[0]));
             ++report_.exact_psfs;
         }
+        constexpr double little = 0.1; // of the budget
+        const double least = little * plan_.budget().error() / differing;
         tables_[colour].emplace(
-            std::span(facts.far_lights).first(mixed ? facts.far_lights.size() : 1),
-            exact ? &*exact : nullptr, plan_.region(), far.radius, floor);
+            facts.far_lights, exact ? &*exact : nullptr, plan_.region(),
+            FarTables::Extent{far.radius, std::min(far.radius, facts.far->radius(least)), floor});
     }
 
     // What came of the plan's tolerances.

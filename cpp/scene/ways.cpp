@@ -28,7 +28,7 @@ double of_far(double radius) {
 
 // Tables of far light are that share of the light off, and more, the more it differs from place to
 // place. Such differences are off by as much of what far light is off itself.
-constexpr double interpolated = 1e-4, mixed = 0.02, of_differences = 0.05;
+constexpr double interpolated = 2e-4, mixed = 0.02, of_differences = 0.05;
 
 // PSFs of one place are some share of the light off those of others near by.
 constexpr double differs = 0.1;

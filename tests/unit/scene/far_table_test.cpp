@@ -58,7 +58,7 @@ Plane<double> drawn_at(const FarTables &tables, double x, double y) {
 TEST(FarTables, OfFarLightAloneAreThat) {
     const SceneOptics optics = broadband("J129", 7);
     const FarLight light = far_light(optics, 2044, 2044);
-    const FarTables tables({&light, 1}, nullptr, image, radius, floor);
+    const FarTables tables({&light, 1}, nullptr, image, {radius, radius, floor});
     Plane<double> expected(160, 150);
     light.add(star, nearest, floor, expected.view());
     const Plane<double> drawn = drawn_at(tables, -1e9, 3); // the same everywhere
@@ -73,7 +73,7 @@ TEST(FarTables, StandForExactPsfsOfAllPlaces) {
         const SceneOptics optics = broadband(band, sca);
         const std::vector<FarLight> lights = at_places(optics);
         const Psf middle = exact(optics, 2044, 2044);
-        const FarTables tables(lights, &middle, image, radius, floor);
+        const FarTables tables(lights, &middle, image, {radius, radius, floor});
         for (const auto &[x, y] : {std::pair(100.0, 1000.0), std::pair(3100.0, 3200.0)}) {
             Plane<double> truth(160, 150), of_middle(160, 150);
             exact(optics, x, y).add({&star, 1}, 1, truth.view(), 1);
@@ -88,7 +88,7 @@ TEST(FarTables, StandForExactPsfsOfAllPlaces) {
 TEST(FarTables, DrawRowsAsTheWholeAndLeaveOutWhatIsFaint) {
     const SceneOptics optics = broadband("J129", 7);
     const std::vector<FarLight> lights = at_places(optics);
-    const FarTables tables(lights, nullptr, image, radius, floor);
+    const FarTables tables(lights, nullptr, image, {radius, radius, floor});
     const Plane<double> whole = drawn_at(tables, 900, 3000);
     Plane<double> rows(160, 150);
     for (int64_t y = 0; y < rows.ny(); y += 7)
