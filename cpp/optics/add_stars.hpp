@@ -34,6 +34,17 @@ template <class T> class StarRows {
                 image_(x, y) += static_cast<T>(stamp_(x - w.x0, y - w.y0));
     }
 
+    // As lines of light: line(x, y) is where that of pixels (x, y), (x + 1, y), ... begins.
+    template <class Line> void add_lines(const Star &star, double radius, const Line &line) {
+        const Window w = window(star, radius);
+        for (int64_t y = w.y0; w.x0 <= w.x1 && y <= w.y1; ++y) {
+            const auto *const light = line(w.x0, w.x1, y);
+            T *pixel = &image_(w.x0, y);
+            for (int64_t x = 0; x <= w.x1 - w.x0; ++x, pixel += image_.stride_x)
+                *pixel += static_cast<T>(light[x]);
+        }
+    }
+
   private:
     struct Window {
         int64_t left = 0, low = 0;                // of the whole stamp

@@ -21,32 +21,68 @@ struct DetectorCell {
 // place miss no more than `lacks` of the light in a pixel; 0 if it takes too many.
 int64_t cells_across(std::span<const LightMode> modes, double lacks);
 
-class CellPsf {
+// The field of the place (u, v) from the sum of modes, on the grid of `like`, to be drawn within
+// `radius` native pixels; pixels lack `lacks` of the light at most.
+Field field_at(std::span<const LightMode> modes, double u, double v, const Field &like,
+               double radius, double lacks);
+
+// A coefficient of T_i(u) T_j(v) T_a(2 dx) T_b(2 dy): light about the pixel that holds the star.
+struct StampDegrees {
+    int i, j, a, b;
+};
+struct StampCoefficient {
+    StampDegrees of;
+    Plane<double> light;
+    std::vector<double> brightest; // so many samples from the middle, or farther
+};
+
+// What stars give pixels: a polynomial of where in a cell they stand, and where in a pixel. Its
+// coefficients are held as S.
+template <class S> class CellPsf {
   public:
-    // Of the sum of modes, on the grid of `like`, out to `radius` native pixels. Pixels lack
-    // `lacks` of the light at most beside what the polynomials miss.
-    CellPsf(std::span<const LightMode> modes, const DetectorCell &cell, const Field &like,
-            double radius, double lacks);
+    // Of all places, from the sum of modes on the grid of `like`, for stamps within `radius` native
+    // pixels of a star, `oversampling` samples each. Pixels lack `lacks` of the light at most.
+    CellPsf(std::span<const LightMode> modes, const Field &like, double radius,
+            int64_t oversampling, double lacks, int threads);
+    // Of a cell, from that of all places: pixels lack `lacks` more, beside what polynomials of
+    // degree 2 miss.
+    CellPsf(const CellPsf &all, const DetectorCell &cell, double lacks);
+
+    // Pixels lack no more than they may: so finely do the modes' grids sample the light that a
+    // polynomial of the place in a pixel will do.
+    bool serves() const { return serves_; }
 
     // Adds a star at (u, v) out to a radius; pixels lack so much more of its light at most.
     template <class T>
     void add(const Star &star, double u, double v, double radius, double lacks, StarRows<T> &rows);
 
   private:
-    void add_degree(int a, int b, std::span<const LightMode> modes, double radius, double lacks);
-    // Radii of the corrections.
-    const std::vector<double> &radii(double radius, double lacks);
+    // Keeps of them what stars need that may lack that much.
+    void keep(std::vector<StampCoefficient> coefficients, double lacks);
+    const S *row(size_t k, int64_t y) const {
+        return light_.view().data + first_[static_cast<size_t>(y + half_)] +
+               static_cast<int64_t>(k) * width_;
+    }
+    // How many coefficients count in samples so far from the middle.
+    const std::vector<int64_t> &counts(double lacks);
 
     DetectorCell cell_;
-    Field middle_;                       // the degree 0
-    std::vector<LightMode> corrections_; // of higher degrees
+    int64_t oversampling_, half_, width_;
+    bool serves_ = true;
+    std::vector<StampDegrees> degrees_; // of the coefficients, the brightest first
+    std::vector<std::vector<double>> brightest_;
     LeftOut left_out_;
-    Field sum_; // of a star's corrections
-    struct Radii {
-        double radius, lacks;
-        std::vector<double> of_corrections;
+    // Row after row of each coefficient that reaches there; where a row's begin, and how many reach
+    // how far from the middle.
+    Plane<S> light_;
+    std::vector<int64_t> first_, held_;
+    struct Counts {
+        double lacks;
+        std::vector<int64_t> by_distance;
     };
-    std::vector<Radii> known_;
+    std::vector<Counts> known_;
+    std::vector<S> weights_;
+    Plane<S> line_;
 };
 
 } // namespace wfpsf

@@ -29,6 +29,14 @@ LeftOut::LeftOut(std::span<const LightMode> modes, std::span<const double> weigh
             beyond_[r][k] = beyond_[r][k + 1] + std::abs(weights[k]) * modes[k].brightest[r];
 }
 
+LeftOut::LeftOut(std::span<const std::vector<double>> brightest, std::span<const double> weights) {
+    beyond_.assign(brightest.empty() ? 1 : brightest[0].size(),
+                   std::vector<double>(brightest.size() + 1, 0));
+    for (size_t r = 0; r < beyond_.size(); ++r)
+        for (size_t k = brightest.size(); k-- > 0;)
+            beyond_[r][k] = beyond_[r][k + 1] + std::abs(weights[k]) * brightest[k][r];
+}
+
 std::vector<double> LeftOut::all() const {
     std::vector<double> all;
     for (const std::vector<double> &ring : beyond_)

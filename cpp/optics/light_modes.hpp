@@ -29,6 +29,8 @@ class LeftOut {
   public:
     LeftOut() = default;
     LeftOut(std::span<const LightMode> modes, std::span<const double> weights);
+    // Of modes that are so bright, by mode and ring.
+    LeftOut(std::span<const std::vector<double>> brightest, std::span<const double> weights);
 
     // All modes but the first `count`, in any pixel.
     double but_for(size_t count) const { return beyond_[0][count]; }

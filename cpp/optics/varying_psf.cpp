@@ -26,7 +26,7 @@ constexpr int largest_degree = largest_chebyshev_degree;
 constexpr double share_of_exact = 0.4, share_of_modes = 0.05, share_of_places = 0.45,
                  share_of_stars = 0.1;
 // How that is shared out in turn: to a cell's polynomials, to its fields, and to stars.
-constexpr double share_of_cells = 0.25, share_of_building = 0.25;
+constexpr double share_of_all = 0.05, share_of_cells = 0.25, share_of_building = 0.2;
 
 // Rows and columns begin <= i < end of a field that stamps of that radius are drawn from.
 struct Window {
@@ -110,7 +110,7 @@ VaryingPsf::VaryingPsf(OpticsAt optics, bool varies, Light light, const PsfSetti
     : optics_(std::move(optics)), light_(std::move(light)), settings_(settings), region_(region),
       plain_(std::move(make_fields(
           optics_((region.x0 + region.x1) / 2, (region.y0 + region.y1) / 2), {&light_, 1},
-          exact_settings(settings, varies), settings.radius, manners)[0])) {
+          exact_settings(settings, varies), settings.radius + 1, manners)[0])) {
     const KeptMemory kept;
     exact_psfs_ = 1;
     error_ = plain_.error;
@@ -122,7 +122,7 @@ VaryingPsf::VaryingPsf(OpticsAt optics, bool varies, Light light, const PsfSetti
         falls_.push_back(std::max(error_far_off, std::sqrt(brightest / mode_[0].largest())));
     ExactFields exact(*this);
     double done = 0.1; // at each level half of what was left
-    double radius = settings_.radius;
+    double radius = settings_.radius + 1;
     for (const int degree : {0, 1, 2, 4, 8, largest_degree}) {
         degree_ = degree;
         manners.require_memory(2 * (degree_ + 1) * (degree_ + 1) * plain_.value.nx() *
@@ -354,23 +354,56 @@ void VaryingPsf::add(std::span<const Star> stars, std::span<const StarDetail> de
     }
     if (image.empty() || stars.empty())
         return;
-    const std::vector<CellStars> cells = by_cell(places, details);
-    on_bands_of_rows(low, high, image.ny, threads, [&](int64_t first_row, int64_t last_row) {
-        StarRows<T> rows(oversampling, image, first_row, last_row);
-        for (const CellStars &cell : cells) {
-            std::optional<CellPsf> psf;
-            const bool alone = cell.cell.half == 0;
-            for (const size_t i : cell.stars) {
-                if (!rows.reached_by(stars[i], details[i].radius))
-                    continue;
-                if (!psf)
-                    psf.emplace(mode_, cell.cell, plain_, cell.radius,
-                                cell.left_out * (alone ? 1 : share_of_building));
-                psf->add(stars[i], places[i].x, places[i].y, details[i].radius,
-                         details[i].left_out * (1 - share_of_cells - share_of_building), rows);
+    const auto on_rows = [&](const auto &work) {
+        on_bands_of_rows(low, high, image.ny, threads, [&](int64_t first_row, int64_t last_row) {
+            const KeptMemory kept;
+            StarRows<T> rows(oversampling, image, first_row, last_row);
+            work(rows);
+        });
+    };
+    const auto one_by_one = [&](StarRows<T> &rows) {
+        for (size_t i = 0; i < stars.size(); ++i)
+            if (rows.reached_by(stars[i], details[i].radius))
+                rows.add(field_at(mode_, places[i].x, places[i].y, plain_, details[i].radius,
+                                  details[i].left_out),
+                         stars[i], details[i].radius);
+    };
+    StarDetail most{0, INFINITY};
+    for (const StarDetail &detail : details) {
+        most.radius = std::max(most.radius, detail.radius);
+        most.left_out = std::min(most.left_out, detail.left_out);
+    }
+    const auto by_cells = [&]<class S>(S) {
+        CellPsf<S> all(mode_, plain_, most.radius, oversampling, share_of_all * most.left_out,
+                       threads);
+        if (!all.serves())
+            return false;
+        const std::vector<CellStars> cells = by_cell(places, details);
+        on_rows([&](StarRows<T> &rows) {
+            CellPsf<S> anywhere(all);
+            for (const CellStars &cell : cells) {
+                const bool alone = cell.cell.half == 0;
+                std::optional<CellPsf<S>> own;
+                for (const size_t i : cell.stars) {
+                    if (!rows.reached_by(stars[i], details[i].radius))
+                        continue;
+                    if (!alone && !own)
+                        own.emplace(all, cell.cell, cell.left_out * share_of_building);
+                    (alone ? anywhere : *own)
+                        .add(stars[i], places[i].x, places[i].y, details[i].radius,
+                             details[i].left_out *
+                                 (1 - share_of_all - share_of_cells - share_of_building),
+                             rows);
+                }
             }
-        }
-    });
+        });
+        return true;
+    };
+    constexpr size_t many = 100; // stars
+    constexpr double rounding = 1e-6;
+    if (stars.size() < many ||
+        !(most.left_out > rounding * mode_[0].largest() ? by_cells(float()) : by_cells(double())))
+        on_rows(one_by_one);
 }
 
 int64_t VaryingPsf::memory() const {
