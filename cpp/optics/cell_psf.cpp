@@ -121,22 +121,15 @@ Field field_at(std::span<const LightMode> modes, double u, double v, const Field
 
 namespace {
 
-std::vector<double> by_distance(const Plane<double> &light) {
-    const int64_t half = light.nx() / 2;
-    std::vector<double> brightest(static_cast<size_t>(half + 1), 0.0);
-    for (int64_t y = -half; y <= half; ++y)
-        for (int64_t x = -half; x <= half; ++x) {
-            double &most = brightest[static_cast<size_t>(std::max(std::abs(x), std::abs(y)))];
-            most = std::max(most, std::abs(light(x + half, y + half)));
-        }
-    for (size_t r = brightest.size() - 1; r-- > 0;)
-        brightest[r] = std::max(brightest[r], brightest[r + 1]);
-    return brightest;
-}
+struct Coefficient {
+    StampDegrees of;
+    Plane<double> light;
+    std::vector<double> brightest;
+};
 
 // What a mode is in stamps.
 struct Expansion {
-    std::vector<StampCoefficient> coefficients;
+    std::vector<Coefficient> coefficients;
     double missed = 0;
 
     // Coefficients reach as far as either of the two before them, in a row of rising degrees, is
@@ -150,11 +143,12 @@ struct Expansion {
         for (int b = 0; b <= highest && std::max(before_b, reach_b) >= 0; ++b) {
             int64_t before = std::max(before_b, reach_b), reach = before, widest = -1;
             for (int a = 0; a + b <= highest && std::max(before, reach) >= 0; ++a) {
-                StampCoefficient c{
-                    {mode.i, mode.j, a, b}, image.coefficients(a, b, std::max(before, reach)), {}};
-                c.brightest = by_distance(c.light);
+                const int64_t size = std::max(before, reach);
+                Coefficient c{{mode.i, mode.j, a, b}, image.coefficients(a, b, size), {}};
+                c.brightest = brightest_beyond<double>(
+                    size, [&](int64_t y) { return c.light.view().row(size + y); });
                 before = reach;
-                reach = static_cast<int64_t>(c.brightest.size()) - 1;
+                reach = size;
                 while (reach >= 0 && c.brightest[static_cast<size_t>(reach)] <= little)
                     --reach;
                 widest = std::max(widest, reach);
@@ -165,10 +159,27 @@ struct Expansion {
             }
             before_b = std::exchange(reach_b, widest);
         }
-        for (StampCoefficient &c : coefficients)
+        for (Coefficient &c : coefficients)
             c.brightest.resize(static_cast<size_t>(half + 1), 0.0);
     }
 };
+
+// A coefficient of a cell: the sum of all places' ones.
+template <class S> struct SumOfCoefficients {
+    StampDegrees of;
+    std::vector<double> brightest; // at most
+    struct Part {
+        size_t k;
+        S weight;
+        int64_t reach; // the widest first
+    };
+    std::vector<Part> parts;
+};
+
+// How far blocks of a row are at least from sample `half` of it.
+int64_t distance(int64_t begin, int64_t half) {
+    return std::max({begin - half, half - (begin + block - 1), int64_t{0}});
+}
 
 } // namespace
 
@@ -177,8 +188,8 @@ CellPsf<S>::CellPsf(std::span<const LightMode> modes, const Field &like, double 
                     int64_t oversampling, double lacks, int threads)
     : cell_{0, 0, 1}, oversampling_(oversampling), half_(stamp_half(radius, oversampling)),
       width_(blocks_for(2 * half_ + 1)) {
-    constexpr double in_a_row = 8; // coefficients that may be cut short at once
-    const double little = lacks / (in_a_row * static_cast<double>(modes.size()));
+    constexpr double at_once = 16; // coefficients that may be cut short there
+    const double little = lacks / (2 * at_once * static_cast<double>(modes.size()));
     std::vector<std::optional<Expansion>> expansions(modes.size());
     const auto bands = std::min<int64_t>(std::max(threads, 1), std::ssize(modes));
     for_each_band(bands, [&](int64_t band) {
@@ -186,23 +197,40 @@ CellPsf<S>::CellPsf(std::span<const LightMode> modes, const Field &like, double 
         for (auto k = static_cast<size_t>(band); k < modes.size(); k += static_cast<size_t>(bands))
             expansions[k].emplace(modes[k], like, oversampling, half_, little);
     });
-    std::vector<StampCoefficient> all;
+    std::vector<Coefficient> all;
     double missed = 0;
     for (std::optional<Expansion> &expansion : expansions) {
         missed += expansion->missed;
         std::ranges::move(expansion->coefficients, std::back_inserter(all));
     }
-    serves_ = missed <= lacks;
-    keep(std::move(all), lacks);
+    serves_ = missed <= lacks / 2;
+    std::ranges::stable_sort(all, std::ranges::greater(),
+                             [](const Coefficient &c) { return c.brightest[0]; });
+    for (Coefficient &c : all) {
+        degrees_.push_back(c.of);
+        brightest_.push_back(std::move(c.brightest));
+    }
+    make_rows(lacks / 2);
+    for (size_t k = 0; k < degrees_.size(); ++k) {
+        const View<const double> light = std::as_const(all[k].light).view();
+        const int64_t half = light.nx / 2;
+        for (int64_t y = -reach_[k]; y <= reach_[k]; ++y) {
+            S *const to = std::fill_n(row(k, y), width_, S(0)) - width_;
+            if (std::abs(y) <= half)
+                std::transform(light.row(half + y), light.row(half + y) + light.nx,
+                               to + half_ - half,
+                               [](double value) { return static_cast<S>(value); });
+        }
+    }
 }
 
 template <class S>
 CellPsf<S>::CellPsf(const CellPsf &all, const DetectorCell &cell, double lacks)
     : cell_(cell), oversampling_(all.oversampling_), half_(all.half_), width_(all.width_) {
     constexpr int fields = (degree + 1) * (degree + 2) / 2;
-    constexpr double of_fields = 0.5;
+    constexpr double of_parts = 0.5; // of what pixels lack
     const Within along_u = within(cell_.u, cell_.half), along_v = within(cell_.v, cell_.half);
-    std::vector<StampCoefficient> coefficients;
+    std::vector<SumOfCoefficients<S>> sums;
     for (int i = 0; i <= degree; ++i)
         for (int j = 0; i + j <= degree; ++j) {
             std::vector<double> weights;
@@ -211,63 +239,73 @@ CellPsf<S>::CellPsf(const CellPsf &all, const DetectorCell &cell, double lacks)
                                   along_v[static_cast<size_t>(of.j)][static_cast<size_t>(j)]);
             const std::vector<double> reach =
                 LeftOut(all.brightest_, weights)
-                    .radii(static_cast<double>(half_ + 1), of_fields * lacks / fields);
+                    .radii(static_cast<double>(half_ + 1), of_parts * lacks / fields);
             std::map<std::pair<int, int>, size_t> known;
             for (size_t k = 0; k < reach.size(); ++k) {
                 const StampDegrees &of = all.degrees_[k];
-                auto half = static_cast<int64_t>(reach[k]) - 1;
-                while (all.held_[static_cast<size_t>(half)] <= static_cast<int64_t>(k) && half > 0)
-                    --half;
-                const auto [at, first] = known.try_emplace({of.a, of.b}, coefficients.size());
+                const auto [at, first] = known.try_emplace({of.a, of.b}, sums.size());
                 if (first)
-                    coefficients.push_back(
-                        {{i, j, of.a, of.b}, Plane<double>(2 * half + 1, 2 * half + 1), {}});
-                Plane<double> &sum = coefficients[at->second].light;
-                const int64_t middle = sum.nx() / 2;
-                for (int64_t y = -half; y <= half; ++y) {
-                    const S *const light = all.row(k, y) + half_ - half;
-                    double *const row = sum.view().row(middle + y) + middle - half;
-                    for (int64_t x = 0; x <= 2 * half; ++x)
-                        row[x] += weights[k] * static_cast<double>(light[x]);
-                }
+                    sums.push_back({{i, j, of.a, of.b},
+                                    std::vector<double>(static_cast<size_t>(half_ + 1), 0.0),
+                                    {}});
+                SumOfCoefficients<S> &sum = sums[at->second];
+                sum.parts.push_back({k, static_cast<S>(weights[k]),
+                                     std::min(all.reach_[k], static_cast<int64_t>(reach[k]) - 1)});
+                for (size_t r = 0; r < sum.brightest.size(); ++r)
+                    sum.brightest[r] += std::abs(weights[k]) * all.brightest_[k][r];
             }
         }
-    for (StampCoefficient &c : coefficients) {
-        c.brightest = by_distance(c.light);
-        c.brightest.resize(static_cast<size_t>(half_ + 1), 0.0);
+    std::ranges::stable_sort(sums, std::ranges::greater(),
+                             [](const SumOfCoefficients<S> &sum) { return sum.brightest[0]; });
+    for (SumOfCoefficients<S> &sum : sums) {
+        degrees_.push_back(sum.of);
+        brightest_.push_back(std::move(sum.brightest));
     }
-    keep(std::move(coefficients), (1 - of_fields) * lacks);
+    make_rows((1 - of_parts) * lacks);
+    std::vector<S> part_weights;
+    std::vector<const S *> starts;
+    for (size_t k = 0; k < degrees_.size(); ++k) {
+        const auto &parts = sums[k].parts;
+        part_weights.clear();
+        for (const auto &part : parts)
+            part_weights.push_back(part.weight);
+        for (int64_t y = -reach_[k]; y <= reach_[k]; ++y) {
+            for (int64_t begin = 0; begin < width_; begin += block) {
+                const int64_t nearest = std::max(distance(begin, half_), std::abs(y));
+                starts.clear();
+                for (const auto &part : parts) {
+                    if (part.reach < nearest)
+                        break;
+                    starts.push_back(all.row(part.k, y) + begin);
+                }
+                sum_blocks(part_weights.data(), std::ssize(starts), starts.data(),
+                           std::ssize(starts), 0, block, row(k, y) + begin);
+            }
+        }
+        brightest_[k] = brightest_beyond<S>(
+            reach_[k], [&](int64_t y) { return row(k, y) + half_ - reach_[k]; });
+        brightest_[k].resize(static_cast<size_t>(half_ + 1), 0.0);
+    }
+    left_out_ = LeftOut(brightest_, std::vector<double>(brightest_.size(), 1));
+    known_.clear();
 }
 
-template <class S> void CellPsf<S>::keep(std::vector<StampCoefficient> coefficients, double lacks) {
-    std::ranges::stable_sort(coefficients, std::ranges::greater(),
-                             [](const StampCoefficient &c) { return c.brightest[0]; });
-    for (StampCoefficient &c : coefficients) {
-        degrees_.push_back(c.of);
-        brightest_.push_back(std::move(c.brightest));
-    }
+// Coefficients beyond `lacks` are dropped.
+template <class S> void CellPsf<S>::make_rows(double lacks) {
     left_out_ = LeftOut(brightest_, std::vector<double>(brightest_.size(), 1));
     held_ = counts(lacks);
     const auto kept = static_cast<size_t>(held_[0]);
     degrees_.resize(kept);
     brightest_.resize(kept);
-    known_.clear();
+    reach_.assign(kept, 0);
+    for (size_t r = 0; r < held_.size(); ++r)
+        std::fill_n(reach_.begin(), held_[r], static_cast<int64_t>(r));
     int64_t rows = 0;
     for (int64_t y = -half_; y <= half_; ++y) {
-        first_.push_back(rows * width_);
+        first_.push_back(rows);
         rows += held_[static_cast<size_t>(std::abs(y))];
     }
-    light_ = Plane<S>(width_, rows);
-    for (size_t k = 0; k < kept; ++k) {
-        const View<const double> light = std::as_const(coefficients[k].light).view();
-        const int64_t half = light.nx / 2;
-        for (int64_t y = -half; y <= half; ++y)
-            if (static_cast<int64_t>(k) < held_[static_cast<size_t>(std::abs(y))]) {
-                S *const to = light_.view().data + (row(k, y) - light_.view().data) + half_ - half;
-                for (int64_t x = 0; x < light.nx; ++x)
-                    to[x] = static_cast<S>(light(x, y + half));
-            }
-    }
+    light_ = Plane<S>::unset(width_, rows);
     weights_.resize(kept);
     line_ = Plane<S>(width_, 1);
 }
@@ -282,9 +320,8 @@ template <class S> const std::vector<int64_t> &CellPsf<S>::counts(double lacks) 
         ++count;
         std::fill_n(counts.begin(), static_cast<size_t>(reach), count);
     }
-    if (!held_.empty())
-        for (size_t r = 0; r < counts.size(); ++r)
-            counts[r] = std::min(counts[r], held_[r]);
+    for (size_t r = 0; r < held_.size(); ++r)
+        counts[r] = std::min(counts[r], held_[r]);
     return known_.emplace_back(Counts{lacks, std::move(counts)}).by_distance;
 }
 
@@ -310,11 +347,17 @@ void CellPsf<S>::add(const Star &star, double u, double v, double radius, double
     rows.add_lines(star, radius, [&](int64_t first, int64_t last, int64_t at) {
         const int64_t off = std::abs(at - middle);
         const S *const light = row(0, at - middle);
-        for (int64_t begin = (first - left) / block * block; begin <= last - left; begin += block) {
-            const int64_t nearest = std::max({begin - half_, half_ - (begin + block - 1), off});
+        const auto count_at = [&](int64_t begin) {
+            return counted[static_cast<size_t>(std::max(distance(begin, half_), off))];
+        };
+        for (int64_t begin = (first - left) / block * block; begin <= last - left;) {
+            int64_t end = begin + block; // of blocks that take as many
+            while (end <= last - left && count_at(end) == count_at(begin))
+                end += block;
             const S *const start = light + begin;
-            sum_blocks(weights_.data(), counted[static_cast<size_t>(nearest)], &start, 1, width_,
-                       block, line + begin);
+            sum_blocks(weights_.data(), count_at(begin), &start, 1, width_, end - begin,
+                       line + begin);
+            begin = end;
         }
         return line + (first - left);
     });

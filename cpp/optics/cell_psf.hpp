@@ -26,16 +26,10 @@ int64_t cells_across(std::span<const LightMode> modes, double lacks);
 Field field_at(std::span<const LightMode> modes, double u, double v, const Field &like,
                double radius, double lacks);
 
-// A coefficient of T_i(u) T_j(v) T_a(2 dx) T_b(2 dy): light about the pixel that holds the star.
+// What counts T_i(u) T_j(v) T_a(2 dx) T_b(2 dy) times: light about the pixel that holds the star.
 struct StampDegrees {
     int i, j, a, b;
 };
-struct StampCoefficient {
-    StampDegrees of;
-    Plane<double> light;
-    std::vector<double> brightest; // so many samples from the middle, or farther
-};
-
 // What stars give pixels: a polynomial of where in a cell they stand, and where in a pixel. Its
 // coefficients are held as S.
 template <class S> class CellPsf {
@@ -57,11 +51,14 @@ template <class S> class CellPsf {
     void add(const Star &star, double u, double v, double radius, double lacks, StarRows<T> &rows);
 
   private:
-    // Keeps of them what stars need that may lack that much.
-    void keep(std::vector<StampCoefficient> coefficients, double lacks);
+    // For coefficients that are no brighter: so many and such rows as stars need that may lack that
+    // much.
+    void make_rows(double lacks);
+    S *row(size_t k, int64_t y) {
+        return light_.view().row(first_[static_cast<size_t>(y + half_)] + static_cast<int64_t>(k));
+    }
     const S *row(size_t k, int64_t y) const {
-        return light_.view().data + first_[static_cast<size_t>(y + half_)] +
-               static_cast<int64_t>(k) * width_;
+        return light_.view().row(first_[static_cast<size_t>(y + half_)] + static_cast<int64_t>(k));
     }
     // How many coefficients count in samples so far from the middle.
     const std::vector<int64_t> &counts(double lacks);
@@ -69,13 +66,15 @@ template <class S> class CellPsf {
     DetectorCell cell_;
     int64_t oversampling_, half_, width_;
     bool serves_ = true;
-    std::vector<StampDegrees> degrees_; // of the coefficients, the brightest first
+    std::vector<StampDegrees> degrees_; // of the coefficients
+    // So many samples from the middle, or farther.
     std::vector<std::vector<double>> brightest_;
     LeftOut left_out_;
-    // Row after row of each coefficient that reaches there; where a row's begin, and how many reach
-    // how far from the middle.
+    // Row after row of each coefficient that reaches there; where those of a row begin, and how
+    // many reach how far from the middle.
     Plane<S> light_;
     std::vector<int64_t> first_, held_;
+    std::vector<int64_t> reach_; // of a coefficient, samples
     struct Counts {
         double lacks;
         std::vector<int64_t> by_distance;

@@ -3,6 +3,9 @@
 
 #include "numerics/dispatch.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace wfpsf {
 
 namespace {
@@ -24,6 +27,17 @@ template <class S>
         for (int64_t i = 0; i < block; ++i)
             sums[begin + i] = registers[i];
     }
+}
+
+template <class S> [[gnu::always_inline]] inline S largest_of(const S *values, int64_t count) {
+    S most[block] = {};
+    int64_t i = 0;
+    for (; i + block <= count; i += block)
+        for (int64_t k = 0; k < block; ++k)
+            most[k] = std::max(most[k], std::abs(values[i + k]));
+    for (; i < count; ++i)
+        most[0] = std::max(most[0], std::abs(values[i]));
+    return *std::max_element(most, most + block);
 }
 
 } // namespace
@@ -48,6 +62,26 @@ WFPSF_VECTORISED void add_scaled(float weight, const float *__restrict values, i
                                  float *__restrict sums) {
     for (int64_t i = 0; i < count; ++i)
         sums[i] += weight * values[i];
+}
+
+WFPSF_VECTORISED double largest(const double *values, int64_t count) {
+    return largest_of(values, count);
+}
+
+WFPSF_VECTORISED float largest(const float *values, int64_t count) {
+    return largest_of(values, count);
+}
+
+WFPSF_VECTORISED void keep_largest(const double *__restrict values, int64_t count,
+                                   double *__restrict most) {
+    for (int64_t i = 0; i < count; ++i)
+        most[i] = std::max(most[i], std::abs(values[i]));
+}
+
+WFPSF_VECTORISED void keep_largest(const float *__restrict values, int64_t count,
+                                   float *__restrict most) {
+    for (int64_t i = 0; i < count; ++i)
+        most[i] = std::max(most[i], std::abs(values[i]));
 }
 
 } // namespace wfpsf

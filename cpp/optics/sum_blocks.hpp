@@ -26,4 +26,10 @@ void sum_blocks(const float *weights, int64_t taps, const float *const *starts, 
 void add_scaled(double weight, const double *values, int64_t count, double *sums);
 void add_scaled(float weight, const float *values, int64_t count, float *sums);
 
+// The largest absolute value; or most[i] = the larger of it and that of values[i].
+double largest(const double *values, int64_t count);
+float largest(const float *values, int64_t count);
+void keep_largest(const double *values, int64_t count, double *most);
+void keep_largest(const float *values, int64_t count, float *most);
+
 } // namespace wfpsf

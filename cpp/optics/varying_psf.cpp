@@ -26,7 +26,7 @@ constexpr int largest_degree = largest_chebyshev_degree;
 constexpr double share_of_exact = 0.4, share_of_modes = 0.05, share_of_places = 0.45,
                  share_of_stars = 0.1;
 // How that is shared out in turn: to a cell's polynomials, to its fields, and to stars.
-constexpr double share_of_all = 0.05, share_of_cells = 0.25, share_of_building = 0.2;
+constexpr double share_of_all = 0.05, share_of_cells = 0.25, share_of_building = 0.3;
 
 // Rows and columns begin <= i < end of a field that stamps of that radius are drawn from.
 struct Window {
