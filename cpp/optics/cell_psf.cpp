@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
@@ -159,8 +158,6 @@ struct Expansion {
             }
             before_b = std::exchange(reach_b, widest);
         }
-        for (Coefficient &c : coefficients)
-            c.brightest.resize(static_cast<size_t>(half + 1), 0.0);
     }
 };
 
@@ -188,29 +185,36 @@ CellPsf<S>::CellPsf(std::span<const LightMode> modes, const Field &like, double 
                     int64_t oversampling, double lacks, int threads)
     : cell_{0, 0, 1}, oversampling_(oversampling), half_(stamp_half(radius, oversampling)),
       width_(blocks_for(2 * half_ + 1)) {
+    // A third each for modes, for what they are expanded to, and for that in turn.
+    const std::vector<double> radii =
+        LeftOut(modes, std::vector<double>(modes.size(), 1)).radii(radius, lacks / 3);
     constexpr double at_once = 16; // coefficients that may be cut short there
-    const double little = lacks / (2 * at_once * static_cast<double>(modes.size()));
-    std::vector<std::optional<Expansion>> expansions(modes.size());
-    const auto bands = std::min<int64_t>(std::max(threads, 1), std::ssize(modes));
+    const double little = lacks / (3 * at_once * static_cast<double>(radii.size() + 1));
+    std::vector<std::optional<Expansion>> expansions(radii.size());
+    const auto bands = std::clamp<int64_t>(std::ssize(radii), 1, std::max(threads, 1));
     for_each_band(bands, [&](int64_t band) {
         const KeptMemory kept;
-        for (auto k = static_cast<size_t>(band); k < modes.size(); k += static_cast<size_t>(bands))
-            expansions[k].emplace(modes[k], like, oversampling, half_, little);
+        for (auto k = static_cast<size_t>(band); k < radii.size(); k += static_cast<size_t>(bands))
+            expansions[k].emplace(modes[k], like, oversampling,
+                                  stamp_half(std::min(radii[k] + 1, radius), oversampling), little);
     });
     std::vector<Coefficient> all;
     double missed = 0;
     for (std::optional<Expansion> &expansion : expansions) {
         missed += expansion->missed;
-        std::ranges::move(expansion->coefficients, std::back_inserter(all));
+        for (Coefficient &c : expansion->coefficients) {
+            c.brightest.resize(static_cast<size_t>(half_ + 1), 0.0);
+            all.push_back(std::move(c));
+        }
     }
-    serves_ = missed <= lacks / 2;
+    serves_ = missed <= lacks / 3;
     std::ranges::stable_sort(all, std::ranges::greater(),
                              [](const Coefficient &c) { return c.brightest[0]; });
     for (Coefficient &c : all) {
         degrees_.push_back(c.of);
         brightest_.push_back(std::move(c.brightest));
     }
-    make_rows(lacks / 2);
+    make_rows(lacks / 3);
     for (size_t k = 0; k < degrees_.size(); ++k) {
         const View<const double> light = std::as_const(all[k].light).view();
         const int64_t half = light.nx / 2;
