@@ -165,12 +165,9 @@ struct Expansion {
 template <class S> struct SumOfCoefficients {
     StampDegrees of;
     std::vector<double> brightest; // at most
-    struct Part {
-        size_t k;
-        S weight;
-        int64_t reach; // the widest first
-    };
-    std::vector<Part> parts;
+    std::vector<size_t> parts;     // the widest first
+    std::vector<S> weights;
+    std::vector<int64_t> reach;
 };
 
 // How far blocks of a row are at least from sample `half` of it.
@@ -251,10 +248,13 @@ CellPsf<S>::CellPsf(const CellPsf &all, const DetectorCell &cell, double lacks)
                 if (first)
                     sums.push_back({{i, j, of.a, of.b},
                                     std::vector<double>(static_cast<size_t>(half_ + 1), 0.0),
+                                    {},
+                                    {},
                                     {}});
                 SumOfCoefficients<S> &sum = sums[at->second];
-                sum.parts.push_back({k, static_cast<S>(weights[k]),
-                                     std::min(all.reach_[k], static_cast<int64_t>(reach[k]) - 1)});
+                sum.parts.push_back(k);
+                sum.weights.push_back(static_cast<S>(weights[k]));
+                sum.reach.push_back(std::min(all.reach_[k], static_cast<int64_t>(reach[k]) - 1));
                 for (size_t r = 0; r < sum.brightest.size(); ++r)
                     sum.brightest[r] += std::abs(weights[k]) * all.brightest_[k][r];
             }
@@ -266,26 +266,23 @@ CellPsf<S>::CellPsf(const CellPsf &all, const DetectorCell &cell, double lacks)
         brightest_.push_back(std::move(sum.brightest));
     }
     make_rows((1 - of_parts) * lacks);
-    std::vector<S> part_weights;
+    sums.resize(degrees_.size());
     std::vector<const S *> starts;
-    for (size_t k = 0; k < degrees_.size(); ++k) {
-        const auto &parts = sums[k].parts;
-        part_weights.clear();
-        for (const auto &part : parts)
-            part_weights.push_back(part.weight);
-        for (int64_t y = -reach_[k]; y <= reach_[k]; ++y) {
+    // All sums of a row take the same few, which stay in the cache.
+    for (int64_t y = -half_; y <= half_; ++y)
+        for (size_t k = 0; k < static_cast<size_t>(held_[static_cast<size_t>(std::abs(y))]); ++k)
             for (int64_t begin = 0; begin < width_; begin += block) {
                 const int64_t nearest = std::max(distance(begin, half_), std::abs(y));
                 starts.clear();
-                for (const auto &part : parts) {
-                    if (part.reach < nearest)
+                for (const size_t part : sums[k].parts) {
+                    if (sums[k].reach[starts.size()] < nearest)
                         break;
-                    starts.push_back(all.row(part.k, y) + begin);
+                    starts.push_back(all.row(part, y) + begin);
                 }
-                sum_blocks(part_weights.data(), std::ssize(starts), starts.data(),
+                sum_blocks(sums[k].weights.data(), std::ssize(starts), starts.data(),
                            std::ssize(starts), 0, block, row(k, y) + begin);
             }
-        }
+    for (size_t k = 0; k < degrees_.size(); ++k) {
         brightest_[k] = brightest_beyond<S>(
             reach_[k], [&](int64_t y) { return row(k, y) + half_ - reach_[k]; });
         brightest_[k].resize(static_cast<size_t>(half_ + 1), 0.0);
@@ -309,7 +306,7 @@ template <class S> void CellPsf<S>::make_rows(double lacks) {
         first_.push_back(rows);
         rows += held_[static_cast<size_t>(std::abs(y))];
     }
-    light_ = Plane<S>::unset(width_, rows);
+    light_ = std::make_shared<Plane<S>>(Plane<S>::unset(width_, rows));
     weights_.resize(kept);
     line_ = Plane<S>(width_, 1);
 }

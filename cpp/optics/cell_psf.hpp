@@ -7,6 +7,7 @@
 #include "optics/field.hpp"
 #include "optics/light_modes.hpp"
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -55,10 +56,10 @@ template <class S> class CellPsf {
     // much.
     void make_rows(double lacks);
     S *row(size_t k, int64_t y) {
-        return light_.view().row(first_[static_cast<size_t>(y + half_)] + static_cast<int64_t>(k));
+        return light_->view().row(first_[static_cast<size_t>(y + half_)] + static_cast<int64_t>(k));
     }
     const S *row(size_t k, int64_t y) const {
-        return light_.view().row(first_[static_cast<size_t>(y + half_)] + static_cast<int64_t>(k));
+        return light_->view().row(first_[static_cast<size_t>(y + half_)] + static_cast<int64_t>(k));
     }
     // How many coefficients count in samples so far from the middle.
     const std::vector<int64_t> &counts(double lacks);
@@ -72,7 +73,7 @@ template <class S> class CellPsf {
     LeftOut left_out_;
     // Row after row of each coefficient that reaches there; where those of a row begin, and how
     // many reach how far from the middle.
-    Plane<S> light_;
+    std::shared_ptr<Plane<S>> light_; // of all copies
     std::vector<int64_t> first_, held_;
     std::vector<int64_t> reach_; // of a coefficient, samples
     struct Counts {

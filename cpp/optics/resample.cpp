@@ -264,7 +264,8 @@ Plane<double> ShiftedImage::coefficients(int a, int b, int64_t half) {
         t.half_of_rows = half;
         t.columns.emplace(columns_of(t.grid, t.part(0, half)));
         const Sums y = t.part(b, half);
-        t.rows = Plane<double>(t.columns->length(), y.count);
+        if (t.columns->length() > t.rows.nx() || y.count > t.rows.ny())
+            t.rows = Plane<double>(t.columns->length(), y.count);
         for (int64_t j = 0; j < y.count; ++j)
             t.columns->sum(y, j, t.rows.view().row(j));
     }
