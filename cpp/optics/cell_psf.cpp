@@ -161,13 +161,19 @@ struct Expansion {
     }
 };
 
-// A coefficient of a cell: the sum of all places' ones.
-template <class S> struct SumOfCoefficients {
-    StampDegrees of;
-    std::vector<double> brightest; // at most
-    std::vector<size_t> parts;     // the widest first
-    std::vector<S> weights;
+constexpr size_t cell_degrees = (degree + 1) * (degree + 2) / 2;
+
+// All places' coefficients of one polynomial of the place in a pixel, and the sums of them that a
+// cell has.
+template <class S> struct Sums {
+    std::vector<size_t> parts; // the widest first
     std::vector<int64_t> reach;
+    struct Sum {
+        std::vector<S> weights;
+        std::vector<double> brightest; // at most
+        size_t kept_as;
+    };
+    std::array<Sum, cell_degrees> of_degree;
 };
 
 // How far blocks of a row are at least from sample `half` of it.
@@ -228,60 +234,71 @@ CellPsf<S>::CellPsf(std::span<const LightMode> modes, const Field &like, double 
 template <class S>
 CellPsf<S>::CellPsf(const CellPsf &all, const DetectorCell &cell, double lacks)
     : cell_(cell), oversampling_(all.oversampling_), half_(all.half_), width_(all.width_) {
-    constexpr int fields = (degree + 1) * (degree + 2) / 2;
-    constexpr double of_parts = 0.5; // of what pixels lack
     const Within along_u = within(cell_.u, cell_.half), along_v = within(cell_.v, cell_.half);
-    std::vector<SumOfCoefficients<S>> sums;
-    for (int i = 0; i <= degree; ++i)
-        for (int j = 0; i + j <= degree; ++j) {
-            std::vector<double> weights;
-            for (const StampDegrees &of : all.degrees_)
-                weights.push_back(along_u[static_cast<size_t>(of.i)][static_cast<size_t>(i)] *
-                                  along_v[static_cast<size_t>(of.j)][static_cast<size_t>(j)]);
-            const std::vector<double> reach =
-                LeftOut(all.brightest_, weights)
-                    .radii(static_cast<double>(half_ + 1), of_parts * lacks / fields);
-            std::map<std::pair<int, int>, size_t> known;
-            for (size_t k = 0; k < reach.size(); ++k) {
-                const StampDegrees &of = all.degrees_[k];
-                const auto [at, first] = known.try_emplace({of.a, of.b}, sums.size());
-                if (first)
-                    sums.push_back({{i, j, of.a, of.b},
-                                    std::vector<double>(static_cast<size_t>(half_ + 1), 0.0),
-                                    {},
-                                    {},
-                                    {}});
-                SumOfCoefficients<S> &sum = sums[at->second];
-                sum.parts.push_back(k);
-                sum.weights.push_back(static_cast<S>(weights[k]));
-                sum.reach.push_back(std::min(all.reach_[k], static_cast<int64_t>(reach[k]) - 1));
-                for (size_t r = 0; r < sum.brightest.size(); ++r)
-                    sum.brightest[r] += std::abs(weights[k]) * all.brightest_[k][r];
-            }
+    std::array<std::pair<size_t, size_t>, cell_degrees> degrees;
+    for (size_t i = 0, d = 0; i <= degree; ++i)
+        for (size_t j = 0; i + j <= degree; ++j)
+            degrees[d++] = {i, j};
+    std::vector<std::array<double, cell_degrees>> weights;
+    std::vector<double> most;
+    for (const StampDegrees &of : all.degrees_) {
+        double &sum = most.emplace_back(0);
+        auto &own = weights.emplace_back();
+        for (size_t d = 0; d < cell_degrees; ++d) {
+            own[d] = along_u[static_cast<size_t>(of.i)][degrees[d].first] *
+                     along_v[static_cast<size_t>(of.j)][degrees[d].second];
+            sum += std::abs(own[d]);
         }
-    std::ranges::stable_sort(sums, std::ranges::greater(),
-                             [](const SumOfCoefficients<S> &sum) { return sum.brightest[0]; });
-    for (SumOfCoefficients<S> &sum : sums) {
-        degrees_.push_back(sum.of);
-        brightest_.push_back(std::move(sum.brightest));
     }
-    make_rows((1 - of_parts) * lacks);
-    sums.resize(degrees_.size());
+    const std::vector<double> reach =
+        LeftOut(all.brightest_, most).radii(static_cast<double>(half_ + 1), lacks / 2);
+    std::map<std::pair<int, int>, Sums<S>> sums;
+    for (size_t k = 0; k < reach.size(); ++k) {
+        Sums<S> &own = sums[{all.degrees_[k].a, all.degrees_[k].b}];
+        own.parts.push_back(k);
+        own.reach.push_back(std::min(all.reach_[k], static_cast<int64_t>(reach[k]) - 1));
+        for (size_t d = 0; d < cell_degrees; ++d) {
+            auto &sum = own.of_degree[d];
+            sum.weights.push_back(static_cast<S>(weights[k][d]));
+            sum.brightest.resize(static_cast<size_t>(half_ + 1), 0.0);
+            for (size_t r = 0; r <= static_cast<size_t>(own.reach.back()); ++r)
+                sum.brightest[r] += std::abs(weights[k][d]) * all.brightest_[k][r];
+        }
+    }
+    struct Found {
+        StampDegrees of;
+        typename Sums<S>::Sum *sum;
+    };
+    std::vector<Found> found;
+    for (auto &[within_pixel, own] : sums)
+        for (size_t d = 0; d < cell_degrees; ++d)
+            found.push_back(
+                {{static_cast<int>(degrees[d].first), static_cast<int>(degrees[d].second),
+                  within_pixel.first, within_pixel.second},
+                 &own.of_degree[d]});
+    std::ranges::stable_sort(found, std::ranges::greater(),
+                             [](const Found &f) { return f.sum->brightest[0]; });
+    for (const Found &f : found) {
+        f.sum->kept_as = degrees_.size();
+        degrees_.push_back(f.of);
+        brightest_.push_back(std::move(f.sum->brightest));
+    }
+    make_rows(lacks / 2);
     std::vector<const S *> starts;
-    // All sums of a row take the same few, which stay in the cache.
-    for (int64_t y = -half_; y <= half_; ++y)
-        for (size_t k = 0; k < static_cast<size_t>(held_[static_cast<size_t>(std::abs(y))]); ++k)
+    for (int64_t y = -half_; y <= half_; ++y) {
+        const auto held = static_cast<size_t>(held_[static_cast<size_t>(std::abs(y))]);
+        for (const auto &[within_pixel, own] : sums)
             for (int64_t begin = 0; begin < width_; begin += block) {
                 const int64_t nearest = std::max(distance(begin, half_), std::abs(y));
                 starts.clear();
-                for (const size_t part : sums[k].parts) {
-                    if (sums[k].reach[starts.size()] < nearest)
-                        break;
-                    starts.push_back(all.row(part, y) + begin);
-                }
-                sum_blocks(sums[k].weights.data(), std::ssize(starts), starts.data(),
-                           std::ssize(starts), 0, block, row(k, y) + begin);
+                while (starts.size() < own.parts.size() && own.reach[starts.size()] >= nearest)
+                    starts.push_back(all.row(own.parts[starts.size()], y) + begin);
+                for (const auto &sum : own.of_degree)
+                    if (sum.kept_as < held)
+                        sum_blocks(sum.weights.data(), std::ssize(starts), starts.data(),
+                                   std::ssize(starts), 0, block, row(sum.kept_as, y) + begin);
             }
+    }
     for (size_t k = 0; k < degrees_.size(); ++k) {
         brightest_[k] = brightest_beyond<S>(
             reach_[k], [&](int64_t y) { return row(k, y) + half_ - reach_[k]; });
