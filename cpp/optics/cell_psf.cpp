@@ -16,7 +16,7 @@ namespace wfpsf {
 
 namespace {
 
-constexpr int degree = 2; // of the polynomials within a cell
+constexpr int degree = 3; // of the polynomials within a cell
 
 // T_i along one axis of a cell, i = 0, 1, ...: coefficients of T_0, T_1 and T_2 of -1..1 within it,
 // by Chebyshev's roots.
@@ -38,7 +38,8 @@ Within within(double middle, double half) {
 // In any of so many cells along an axis: the largest coefficients of T_i within, and how far they
 // are off.
 struct Largest {
-    std::array<double, largest_chebyshev_degree + 1> linear{}, square{}, missed{};
+    Within coefficient{};
+    std::array<double, largest_chebyshev_degree + 1> missed{};
 
     explicit Largest(int64_t cells) {
         const double half = 1.0 / static_cast<double>(cells);
@@ -48,25 +49,30 @@ struct Largest {
     // Of T_i(u) T_j(v).
     double misses(int i, int j) const {
         const auto at_u = static_cast<size_t>(i), at_v = static_cast<size_t>(j);
-        return missed[at_u] + (1 + missed[at_u]) * missed[at_v] + linear[at_u] * square[at_v] +
-               square[at_u] * linear[at_v] + square[at_u] * square[at_v];
+        double misses = missed[at_u] + (1 + missed[at_u]) * missed[at_v];
+        for (size_t a = 1; a <= degree; ++a)
+            for (size_t b = degree + 1 - a; b <= degree; ++b)
+                misses += coefficient[at_u][a] * coefficient[at_v][b];
+        return misses;
     }
 
   private:
     void look_at(double middle, double half) {
         constexpr int places = 16;
         const Within of = within(middle, half);
-        for (size_t i = 0; i < of.size(); ++i) {
-            linear[i] = std::max(linear[i], std::abs(of[i][1]));
-            square[i] = std::max(square[i], std::abs(of[i][2]));
-        }
+        for (size_t i = 0; i < of.size(); ++i)
+            for (size_t a = 0; a <= degree; ++a)
+                coefficient[i][a] = std::max(coefficient[i][a], std::abs(of[i][a]));
         for (int k = 0; k <= places; ++k) {
             const double at = 2.0 * k / places - 1;
             const auto basis = chebyshev(at, degree);
             const auto value = chebyshev(middle + half * at, largest_chebyshev_degree);
-            for (size_t i = 0; i < of.size(); ++i)
-                missed[i] = std::max(missed[i], std::abs(value[i] - of[i][0] - of[i][1] * basis[1] -
-                                                         of[i][2] * basis[2]));
+            for (size_t i = 0; i < of.size(); ++i) {
+                double off = value[i];
+                for (size_t a = 0; a <= degree; ++a)
+                    off -= of[i][a] * basis[a];
+                missed[i] = std::max(missed[i], std::abs(off));
+            }
         }
     }
 };
@@ -90,8 +96,7 @@ int64_t stamp_half(double radius, int64_t oversampling) {
 
 } // namespace
 
-int64_t cells_across(std::span<const LightMode> modes, double lacks) {
-    constexpr int64_t most = 64;
+int64_t cells_across(std::span<const LightMode> modes, double lacks, int64_t most) {
     for (int64_t cells = 1; cells <= most; cells *= 2) {
         const Largest largest(cells);
         double missed = 0;
@@ -151,10 +156,11 @@ struct Expansion {
                 while (reach >= 0 && c.brightest[static_cast<size_t>(reach)] <= little)
                     --reach;
                 widest = std::max(widest, reach);
+                if (reach < 0)
+                    continue;
                 if (a + b == highest)
                     missed += c.brightest[0];
-                if (reach >= 0)
-                    coefficients.push_back(std::move(c));
+                coefficients.push_back(std::move(c));
             }
             before_b = std::exchange(reach_b, widest);
         }
@@ -202,15 +208,13 @@ CellPsf<S>::CellPsf(std::span<const LightMode> modes, const Field &like, double 
                                   stamp_half(std::min(radii[k] + 1, radius), oversampling), little);
     });
     std::vector<Coefficient> all;
-    double missed = 0;
     for (std::optional<Expansion> &expansion : expansions) {
-        missed += expansion->missed;
+        missed_ += expansion->missed;
         for (Coefficient &c : expansion->coefficients) {
             c.brightest.resize(static_cast<size_t>(half_ + 1), 0.0);
             all.push_back(std::move(c));
         }
     }
-    serves_ = missed <= lacks / 3;
     std::ranges::stable_sort(all, std::ranges::greater(),
                              [](const Coefficient &c) { return c.brightest[0]; });
     for (Coefficient &c : all) {

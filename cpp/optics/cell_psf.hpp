@@ -18,9 +18,9 @@ struct DetectorCell {
     double u, v, half; // middle; half the width: 0 for one place alone
 };
 
-// How many cells along each axis it takes, a power of two, so that polynomials of degree 2 in the
-// place miss no more than `lacks` of the light in a pixel; 0 if it takes too many.
-int64_t cells_across(std::span<const LightMode> modes, double lacks);
+// How many cells along each axis it takes, a power of two, so that polynomials of degree 3 in the
+// place miss no more than `lacks` of the light in a pixel; 0 if it takes more than `most`.
+int64_t cells_across(std::span<const LightMode> modes, double lacks, int64_t most);
 
 // The field of the place (u, v) from the sum of modes, on the grid of `like`, to be drawn within
 // `radius` native pixels; pixels lack `lacks` of the light at most.
@@ -36,22 +36,24 @@ struct StampDegrees {
 template <class S> class CellPsf {
   public:
     // Of all places, from the sum of modes on the grid of `like`, for stamps within `radius` native
-    // pixels of a star, `oversampling` samples each. Pixels lack `lacks` of the light at most.
+    // pixels of a star, `oversampling` samples each. Pixels lack `lacks` of the light at most, if
+    // that serves.
     CellPsf(std::span<const LightMode> modes, const Field &like, double radius,
             int64_t oversampling, double lacks, int threads);
     // Of a cell, from that of all places: pixels lack `lacks` more, beside what polynomials of
-    // degree 2 miss.
+    // degree 3 miss.
     CellPsf(const CellPsf &all, const DetectorCell &cell, double lacks);
 
-    // Pixels lack no more than they may: so finely do the modes' grids sample the light that a
-    // polynomial of the place in a pixel will do.
-    bool serves() const { return serves_; }
+    // Do pixels lack no more than that? Light that pixels sample too coarsely, and that of the
+    // interpolation's own error, no polynomial of the place in a pixel tells.
+    bool serves(double lacks) const { return missed_ <= of_missed * lacks; }
 
     // Adds a star at (u, v) out to a radius; pixels lack so much more of its light at most.
     template <class T>
     void add(const Star &star, double u, double v, double radius, double lacks, StarRows<T> &rows);
 
   private:
+    static constexpr double of_missed = 1.0 / 3;
     // For coefficients that are no brighter: so many and such rows as stars need that may lack that
     // much.
     void make_rows(double lacks);
@@ -66,7 +68,7 @@ template <class S> class CellPsf {
 
     DetectorCell cell_;
     int64_t oversampling_, half_, width_;
-    bool serves_ = true;
+    double missed_ = 0;                 // by the highest degree
     std::vector<StampDegrees> degrees_; // of the coefficients
     // So many samples from the middle, or farther.
     std::vector<std::vector<double>> brightest_;

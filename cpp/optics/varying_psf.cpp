@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <compare>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
@@ -25,8 +26,10 @@ constexpr int largest_degree = largest_chebyshev_degree;
 // and to what is left out of single stars.
 constexpr double share_of_exact = 0.4, share_of_modes = 0.05, share_of_places = 0.45,
                  share_of_stars = 0.1;
-// How that is shared out in turn: to a cell's polynomials, to its fields, and to stars.
-constexpr double share_of_all = 0.05, share_of_cells = 0.25, share_of_building = 0.3;
+// How that is shared out in turn: to the coefficients for all places, to a cell's polynomials, to its
+// coefficients, and to stars.
+constexpr double share_of_all = 0.1, share_of_cells = 0.25, share_of_building = 0.25,
+                 share_of_drawing = 0.4;
 
 // Rows and columns begin <= i < end of a field that stamps of that radius are drawn from.
 struct Window {
@@ -292,10 +295,26 @@ struct VaryingPsf::CellStars {
     std::vector<size_t> stars;
 };
 
-std::vector<VaryingPsf::CellStars> VaryingPsf::by_cell(std::span<const Place> places,
+std::vector<VaryingPsf::CellStars> VaryingPsf::by_cell(std::span<const size_t> which,
+                                                       std::span<const Place> places,
                                                        std::span<const StarDetail> details) const {
-    // Stars that may lack little need small cells, and have theirs apart from others.
-    std::map<double, int64_t> across_by_left_out;
+    // Stars that may lack little need small cells, and have theirs apart from others. Many stars
+    // are worth more cells than they need: nearer to the middle fewer corrections count.
+    struct Class {
+        size_t stars = 0;
+        int64_t across = 0; // cells along each axis
+    };
+    std::map<double, Class> classes; // by left_out
+    for (const size_t i : which)
+        ++classes[details[i].left_out].stars;
+    constexpr size_t enough = 400; // in a cell
+    constexpr int64_t most = 64;
+    for (auto &[left_out, own] : classes) {
+        own.across = cells_across(mode_, share_of_cells * left_out, most);
+        while (own.across > 0 && 2 * own.across <= most &&
+               own.stars > enough * static_cast<size_t>(4 * own.across * own.across))
+            own.across *= 2;
+    }
     struct Key {
         int64_t across, b, a; // cells along each axis, and which
         auto operator<=>(const Key &) const = default;
@@ -305,15 +324,9 @@ std::vector<VaryingPsf::CellStars> VaryingPsf::by_cell(std::span<const Place> pl
     const auto alone = [&](size_t i) {
         all.push_back({{places[i].x, places[i].y, 0}, details[i].radius, details[i].left_out, {i}});
     };
-    for (size_t i = 0; i < places.size(); ++i) {
+    for (const size_t i : which) {
         const StarDetail &detail = details[i];
-        auto known = across_by_left_out.find(detail.left_out);
-        if (known == across_by_left_out.end())
-            known =
-                across_by_left_out
-                    .emplace(detail.left_out, cells_across(mode_, share_of_cells * detail.left_out))
-                    .first;
-        const int64_t across = known->second;
+        const int64_t across = classes[detail.left_out].across;
         if (across == 0) {
             alone(i);
             continue;
@@ -330,7 +343,7 @@ std::vector<VaryingPsf::CellStars> VaryingPsf::by_cell(std::span<const Place> pl
         cell.left_out = std::min(cell.left_out, detail.left_out);
         cell.stars.push_back(i);
     }
-    constexpr size_t few = 6; // stars, that take no longer one by one
+    constexpr size_t few = 30; // stars, that take no longer one by one
     for (auto &[key, cell] : cells) {
         if (cell.stars.size() > few)
             all.push_back(std::move(cell));
@@ -361,24 +374,23 @@ void VaryingPsf::add(std::span<const Star> stars, std::span<const StarDetail> de
             work(rows);
         });
     };
-    const auto one_by_one = [&](StarRows<T> &rows) {
-        for (size_t i = 0; i < stars.size(); ++i)
-            if (rows.reached_by(stars[i], details[i].radius))
-                rows.add(field_at(mode_, places[i].x, places[i].y, plain_, details[i].radius,
-                                  details[i].left_out),
-                         stars[i], details[i].radius);
-    };
-    StarDetail most{0, INFINITY};
-    for (const StarDetail &detail : details) {
-        most.radius = std::max(most.radius, detail.radius);
-        most.left_out = std::min(most.left_out, detail.left_out);
-    }
-    const auto by_cells = [&]<class S>(S) {
-        CellPsf<S> all(mode_, plain_, most.radius, oversampling, share_of_all * most.left_out,
-                       threads);
-        if (!all.serves())
-            return false;
-        const std::vector<CellStars> cells = by_cell(places, details);
+    // From coefficients of type S, unless they are so few that making those takes longer; returns
+    // the others, and those that coefficients will not do for.
+    const auto by_cells = [&]<class S>(S, const std::vector<size_t> &which) {
+        constexpr size_t few = 100;
+        if (which.size() < few)
+            return which;
+        StarDetail most{0, INFINITY};
+        for (const size_t i : which) {
+            most.radius = std::max(most.radius, details[i].radius);
+            most.left_out = std::min(most.left_out, details[i].left_out);
+        }
+        const CellPsf<S> all(mode_, plain_, most.radius, oversampling, share_of_all * most.left_out,
+                             threads);
+        std::vector<size_t> served, others;
+        for (const size_t i : which)
+            (all.serves(share_of_all * details[i].left_out) ? served : others).push_back(i);
+        const std::vector<CellStars> cells = by_cell(served, places, details);
         on_rows([&](StarRows<T> &rows) {
             CellPsf<S> anywhere(all);
             for (const CellStars &cell : cells) {
@@ -388,22 +400,33 @@ void VaryingPsf::add(std::span<const Star> stars, std::span<const StarDetail> de
                     if (!rows.reached_by(stars[i], details[i].radius))
                         continue;
                     if (!alone && !own)
-                        own.emplace(all, cell.cell, cell.left_out * share_of_building);
+                        own.emplace(all, cell.cell, share_of_building * cell.left_out);
                     (alone ? anywhere : *own)
                         .add(stars[i], places[i].x, places[i].y, details[i].radius,
-                             details[i].left_out *
-                                 (1 - share_of_all - share_of_cells - share_of_building),
-                             rows);
+                             share_of_drawing * details[i].left_out, rows);
                 }
             }
         });
-        return true;
+        return others;
     };
-    constexpr size_t many = 100; // stars
-    constexpr double rounding = 1e-6;
-    if (stars.size() < many ||
-        !(most.left_out > rounding * mode_[0].largest() ? by_cells(float()) : by_cells(double())))
-        on_rows(one_by_one);
+    std::vector<size_t> loose, tight;
+    constexpr double rounding = 1e-6; // of a few sums
+    for (size_t i = 0; i < stars.size(); ++i)
+        (details[i].left_out > rounding * mode_[0].largest() ? loose : tight).push_back(i);
+    std::vector<size_t> alone = by_cells(float(), loose);
+    std::ranges::copy(by_cells(double(), tight), std::back_inserter(alone));
+    on_rows([&](StarRows<T> &rows) {
+        for (const size_t i : alone) {
+            const auto &[radius, left_out] = details[i];
+            if (!rows.reached_by(stars[i], radius))
+                continue;
+            if (mode_.size() == 1)
+                rows.add(plain_, stars[i], radius);
+            else
+                rows.add(field_at(mode_, places[i].x, places[i].y, plain_, radius, left_out),
+                         stars[i], radius);
+        }
+    });
 }
 
 int64_t VaryingPsf::memory() const {
