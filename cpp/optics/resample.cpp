@@ -224,14 +224,15 @@ ShiftedImage::ShiftedImage(View<const double> grid, const BandlimitedInterpolato
     }
     constexpr int nodes = largest_degree + 4;
     const double step = static_cast<double>(numerator) / static_cast<double>(denominator);
-    const auto centre = static_cast<double>(grid.nx / 2);
+    const int64_t middle = grid.nx / 2;
     std::vector<double> shift;
     std::vector<Sums> at;
     for (int k = 0; k < nodes; ++k) {
         shift.push_back(std::cos(std::numbers::pi * (k + 0.5) / nodes));
         at.push_back(interpolating_sums(
-            interpolator, {centre - (static_cast<double>(half) + shift.back() / 2) * step, 0,
-                           2 * half + 1, numerator, denominator}));
+            interpolator,
+            {static_cast<double>(middle) - (static_cast<double>(half) + shift.back() / 2) * step, 0,
+             2 * half + 1, numerator, denominator}));
     }
     // Places move back as the shift grows: the first are those of the first node.
     Sums none = at[0];

@@ -150,15 +150,10 @@ void Ways::with_and_without_far(const Way &way, double time_s, const Take &take)
     }
 }
 
-// PSFs differ as far out as what they differ by counts.
-double Ways::shared_stamp(double radius, double eps, double left_out) const {
-    const double stamp = cost::stamp(width(radius), radius, eps);
-    if (!colour_.varies || differs * colour_.profile.peak() <= left_out)
-        return stamp;
-    double reach = 1;
-    while (reach < radius && differs * colour_.profile.brightest_beyond(reach) > left_out)
-        ++reach;
-    return stamp + cost::correction(reach, eps);
+double Ways::shared_stamps(double radius, double left_out) const {
+    const double stamps = count() * cost::shared_stamp(width(radius), left_out);
+    const bool differ = colour_.varies && differs * colour_.profile.peak() > left_out;
+    return differ ? stamps + cost::places(count(), width(radius), left_out) : stamps;
 }
 
 void Ways::of_shared(const SharedModel &model, const Take &take) const {
@@ -166,7 +161,7 @@ void Ways::of_shared(const SharedModel &model, const Take &take) const {
     for (const double left_out : falling(colour_.varies ? 1e-2 : model.eps, model.eps / 2, 4))
         for (const double radius : radii(std::min(model.radius, group_.reach)))
             with_and_without_far({Drawing::shared, radius, model.eps, peak * left_out, 0},
-                                 count() * shared_stamp(radius, model.eps, peak * left_out), take);
+                                 shared_stamps(radius, peak * left_out), take);
 }
 
 void Ways::of_own(const Take &take) const {
