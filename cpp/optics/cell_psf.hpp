@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The PSFs of a cell of a detector. All over the detector many fields are needed; within a cell one,
-// that of its middle, tells nearly all, and a few more the rest, near the core alone.
+// Stars' stamps without interpolation: sums of light on the image's own samples, that all stars of a
+// cell of a detector share. All over the detector many such are needed; within a cell a few tell
+// nearly all, and the rest matter near the core alone.
 #pragma once
 
 #include "optics/add_stars.hpp"
@@ -27,12 +28,13 @@ int64_t cells_across(std::span<const LightMode> modes, double lacks, int64_t mos
 Field field_at(std::span<const LightMode> modes, double u, double v, const Field &like,
                double radius, double lacks);
 
-// What counts T_i(u) T_j(v) T_a(2 dx) T_b(2 dy) times: light about the pixel that holds the star.
+// That of a coefficient of T_i(u) T_j(v) T_a(2 dx) T_b(2 dy): of where in a cell a star stands, and
+// how far, in samples, from the middle of the one that holds it.
 struct StampDegrees {
     int i, j, a, b;
 };
-// What stars give pixels: a polynomial of where in a cell they stand, and where in a pixel. Its
-// coefficients are held as S.
+
+// What stars give samples: such a polynomial. Its coefficients are held as S.
 template <class S> class CellPsf {
   public:
     // Of all places, from the sum of modes on the grid of `like`, for stamps within `radius` native
@@ -53,7 +55,7 @@ template <class S> class CellPsf {
     void add(const Star &star, double u, double v, double radius, double lacks, StarRows<T> &rows);
 
   private:
-    static constexpr double of_missed = 1.0 / 3;
+    static constexpr double of_missed = 1.0 / 3; // of what pixels lack
     // For coefficients that are no brighter: so many and such rows as stars need that may lack that
     // much.
     void make_rows(double lacks);
