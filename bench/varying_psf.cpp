@@ -132,9 +132,8 @@ Stamp by_corner_rule(const Detector &detector) {
 // `left_out` of their light in a pixel; the error is that of some that stand apart.
 Case stars_case(double radius, double left_out, size_t count) {
     char name[100];
-    std::snprintf(name, sizeof name,
-                  "Stars from a PSF all over SCA 7: one of %zu, radius %g, leaving out %.0e", count,
-                  radius, left_out);
+    std::snprintf(name, sizeof name, "Star of %zu all over SCA 7, radius %g, leaving out %.1e",
+                  count, radius, left_out);
     return {
         name, "largest pixel error / flux", 0, left_out, [=] {
             const Detector detector;
