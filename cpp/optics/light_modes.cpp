@@ -36,10 +36,6 @@ void LeftOut::add_up(size_t mode, const std::vector<double> &brightest, double w
         with[r] = with[r + rings_] + std::abs(weight) * brightest[r];
 }
 
-std::vector<double> LeftOut::all() const {
-    return {beyond_.begin(), beyond_.begin() + static_cast<std::ptrdiff_t>(rings_)};
-}
-
 std::vector<double> LeftOut::radii(double radius, double most) const {
     std::vector<double> radii;
     size_t r = rings_; // beyond r - 1 all modes after the first k are left out

@@ -55,8 +55,6 @@ class LeftOut {
 
     // All modes but the first `count`, in any pixel.
     double but_for(size_t count) const { return beyond_[count * rings_]; }
-    // All modes, by ring: 0, 1, 2, ... native pixels from the star or farther.
-    std::vector<double> all() const;
     // By mode the radius, native pixels, beyond which it may be left out of a stamp of that radius,
     // so that no pixel lacks more than `most`; modes that may be left out altogether are not
     // listed.

@@ -22,6 +22,10 @@ namespace {
 
 constexpr int largest_degree = largest_chebyshev_degree;
 
+// Native pixels beyond the radius that fields reach: a stamp's pixels are polynomials of the star's
+// place all over the pixel that holds it.
+constexpr double margin = 1;
+
 // How eps is shared out: to the exact PSFs, to the fields that are left out, to the interpolation,
 // and to what is left out of single stars.
 constexpr double share_of_exact = 0.4, share_of_modes = 0.05, share_of_places = 0.45,
@@ -113,7 +117,7 @@ VaryingPsf::VaryingPsf(OpticsAt optics, bool varies, Light light, const PsfSetti
     : optics_(std::move(optics)), light_(std::move(light)), settings_(settings), region_(region),
       plain_(std::move(make_fields(
           optics_((region.x0 + region.x1) / 2, (region.y0 + region.y1) / 2), {&light_, 1},
-          exact_settings(settings, varies), settings.radius + 1, manners)[0])) {
+          exact_settings(settings, varies), settings.radius + margin, manners)[0])) {
     const KeptMemory kept;
     exact_psfs_ = 1;
     error_ = plain_.error;
@@ -125,7 +129,7 @@ VaryingPsf::VaryingPsf(OpticsAt optics, bool varies, Light light, const PsfSetti
         falls_.push_back(std::max(error_far_off, std::sqrt(brightest / mode_[0].largest())));
     ExactFields exact(*this);
     double done = 0.1; // at each level half of what was left
-    double radius = settings_.radius + 1;
+    double radius = settings_.radius + margin;
     for (const int degree : {0, 1, 2, 4, 8, largest_degree}) {
         degree_ = degree;
         manners.require_memory(2 * (degree_ + 1) * (degree_ + 1) * plain_.value.nx() *
