@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 #include <random>
+#include <span>
 
 namespace wfpsf::bench {
 
@@ -84,13 +85,15 @@ Case place_case(const char *name, double eps, const std::function<Stamp(const De
             }};
 }
 
-VaryingPsf model(const Detector &detector, double eps) {
+VaryingPsf model(const Detector &detector, double eps, double radius = 8) {
+    PsfSettings settings = detector.settings(eps);
+    settings.radius = radius;
     return {[&detector](double x, double y) {
                 return detector.optics({x, y});
             },
             true,
             monochromatic(wavelength),
-            detector.settings(eps),
+            settings,
             {0, 0, last_pixel, last_pixel}};
 }
 
@@ -125,6 +128,57 @@ Stamp by_corner_rule(const Detector &detector) {
     };
 }
 
+// The time is that of one of many stars of one flux, all over the detector, that may lack
+// `left_out` of their light in a pixel; the error is that of some that stand apart.
+Case stars_case(double radius, double left_out, size_t count) {
+    char name[100];
+    std::snprintf(name, sizeof name, "Star of %zu all over SCA 7, radius %g, leaving out %.1e",
+                  count, radius, left_out);
+    return {
+        name, "largest pixel error / flux", 0, left_out, [=] {
+            const Detector detector;
+            const VaryingPsf varying = model(detector, 3e-5, radius);
+            const std::vector<StarDetail> details(count, {radius, left_out});
+            std::mt19937 random(5);
+            std::uniform_real_distribution<double> inside(0, last_pixel), offset(-0.5, 0.5);
+            std::vector<Star> stars, apart;
+            for (size_t i = 0; i < count; ++i)
+                stars.push_back({inside(random), inside(random), 1});
+            Plane<float> image(4088, 4088);
+            const auto draw = [&](const std::vector<Star> &these) {
+                varying.add(std::span(these), std::span(details).first(these.size()), 0, 0, 1,
+                            image.view(), 1);
+            };
+            Measured m;
+            m.timing = time([&] { draw(stars); });
+            m.timing.median_s /= static_cast<double>(count);
+            m.timing.min_s /= static_cast<double>(count);
+            const auto half = static_cast<int64_t>(radius), step = 2 * half + 3;
+            for (int64_t y = step; y < 4088 - step; y += step)
+                for (int64_t x = step; x < 4088 - step; x += step)
+                    apart.push_back({static_cast<double>(x) + offset(random),
+                                     static_cast<double>(y) + offset(random), 1});
+            apart.resize(std::min(apart.size(), count));
+            image = Plane<float>(4088, 4088);
+            draw(apart);
+            for (size_t i = 0; i < apart.size(); i += 1 + apart.size() / 100) {
+                const Star &star = apart[i];
+                const int64_t x0 = std::lround(star.x) - half + 1;
+                const int64_t y0 = std::lround(star.y) - half + 1;
+                Plane<double> truth(2 * half - 1, 2 * half - 1);
+                varying.at(star.x, star.y)
+                    .draw({star.x - static_cast<double>(x0), star.y - static_cast<double>(y0), 1},
+                          1, truth.view());
+                for (int64_t y = 0; y < truth.ny(); ++y)
+                    for (int64_t x = 0; x < truth.nx(); ++x)
+                        m.error =
+                            std::max(m.error, std::abs(static_cast<double>(image(x0 + x, y0 + y)) -
+                                                       truth(x, y)));
+            }
+            return m;
+        }};
+}
+
 // The PSFs of the corners, weighted by the place's distances from them.
 Stamp between_corner_psfs(const Detector &detector) {
     std::array<Plane<double>, 4> corners;
@@ -156,7 +210,11 @@ std::vector<Case> varying_psf_cases() {
             place_case("PSF at a place: made for it, eps 1e-05", 1e-5, exactly),
             place_case("PSF at a place: aberrations bilinear between corners", 0, by_corner_rule),
             place_case("PSF at a place: PSFs bilinear between corners", 0, between_corner_psfs),
-            place_case("PSF at a place: that of the centre", 0, of_the_centre)};
+            place_case("PSF at a place: that of the centre", 0, of_the_centre),
+            stars_case(15, 6e-5, 50000),
+            stars_case(22, 6e-5, 30000),
+            stars_case(48, 1.5e-5, 10000),
+            stars_case(15, 1e-6, 10000)};
 }
 
 } // namespace wfpsf::bench

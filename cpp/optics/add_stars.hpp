@@ -34,6 +34,22 @@ template <class T> class StarRows {
                 image_(x, y) += static_cast<T>(stamp_(x - w.x0, y - w.y0));
     }
 
+    // As lines of light: line(x, y) is where that of pixels (x, y), (x + 1, y), ... begins.
+    template <class Line> void add_lines(const Star &star, double radius, const Line &line) {
+        const Window w = window(star, radius);
+        const int64_t count = w.x1 - w.x0 + 1;
+        for (int64_t y = w.y0; count > 0 && y <= w.y1; ++y) {
+            const auto *const __restrict light = line(w.x0, w.x1, y);
+            T *const __restrict pixel = &image_(w.x0, y);
+            if (image_.stride_x == 1) // vector instructions
+                for (int64_t i = 0; i < count; ++i)
+                    pixel[i] += static_cast<T>(light[i]);
+            else
+                for (int64_t i = 0; i < count; ++i)
+                    pixel[i * image_.stride_x] += static_cast<T>(light[i]);
+        }
+    }
+
   private:
     struct Window {
         int64_t left = 0, low = 0;                // of the whole stamp

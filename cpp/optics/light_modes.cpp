@@ -1,47 +1,46 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "optics/light_modes.hpp"
 
-#include "optics/sum_blocks.hpp"
-
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace wfpsf {
 
 void LightMode::find_brightest(int64_t per_pixel) {
     const int64_t middle = light.nx() / 2;
-    brightest.assign(static_cast<size_t>(middle / per_pixel) + 1, 0);
-    for (int64_t y = 0; y < light.ny(); ++y)
-        for (int64_t x = 0; x < light.nx(); ++x) {
-            const int64_t off = std::max(std::abs(x - middle), std::abs(y - middle));
-            double &most = brightest[static_cast<size_t>(off / per_pixel)];
-            most = std::max(most, std::abs(light(x, y)));
-        }
-    for (size_t r = brightest.size() - 1; r-- > 0;)
-        brightest[r] = std::max(brightest[r], brightest[r + 1]);
+    const std::vector<double> by_sample = brightest_beyond<double>(
+        middle, [&](int64_t y) { return std::as_const(light).view().row(middle + y); });
+    brightest.clear();
+    for (size_t r = 0; r < by_sample.size(); r += static_cast<size_t>(per_pixel))
+        brightest.push_back(by_sample[r]);
 }
 
-LeftOut::LeftOut(std::span<const LightMode> modes, std::span<const double> weights) {
-    const size_t rings = modes.empty() ? 1 : modes[0].brightest.size();
-    beyond_.assign(rings, std::vector<double>(modes.size() + 1, 0));
-    for (size_t r = 0; r < rings; ++r)
-        for (size_t k = modes.size(); k-- > 0;)
-            beyond_[r][k] = beyond_[r][k + 1] + std::abs(weights[k]) * modes[k].brightest[r];
+LeftOut::LeftOut(std::span<const LightMode> modes, std::span<const double> weights)
+    : rings_(modes.empty() ? 1 : modes[0].brightest.size()),
+      beyond_((modes.size() + 1) * rings_, 0.0) {
+    for (size_t k = modes.size(); k-- > 0;)
+        add_up(k, modes[k].brightest, weights[k]);
 }
 
-std::vector<double> LeftOut::all() const {
-    std::vector<double> all;
-    for (const std::vector<double> &ring : beyond_)
-        all.push_back(ring[0]);
-    return all;
+LeftOut::LeftOut(std::span<const std::vector<double>> brightest, std::span<const double> weights)
+    : rings_(brightest.empty() ? 1 : brightest[0].size()),
+      beyond_((brightest.size() + 1) * rings_, 0.0) {
+    for (size_t k = brightest.size(); k-- > 0;)
+        add_up(k, brightest[k], weights[k]);
+}
+
+void LeftOut::add_up(size_t mode, const std::vector<double> &brightest, double weight) {
+    double *const with = &beyond_[mode * rings_];
+    for (size_t r = 0; r < rings_; ++r)
+        with[r] = with[r + rings_] + std::abs(weight) * brightest[r];
 }
 
 std::vector<double> LeftOut::radii(double radius, double most) const {
     std::vector<double> radii;
-    size_t r = beyond_.size(); // beyond r - 1 all modes after the first k are left out
-    const size_t modes = beyond_[0].size() - 1;
-    for (size_t k = 0; k < modes; ++k) {
-        while (r > 0 && beyond_[r - 1][k] <= most)
+    size_t r = rings_; // beyond r - 1 all modes after the first k are left out
+    for (size_t k = 0; (k + 1) * rings_ < beyond_.size(); ++k) {
+        while (r > 0 && beyond_[k * rings_ + r - 1] <= most)
             --r;
         if (r == 0)
             break;

@@ -3,7 +3,9 @@
 #pragma once
 
 #include "image/view.hpp"
+#include "optics/sum_blocks.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -23,24 +25,46 @@ struct LightMode {
     double largest() const { return brightest[0]; }
 };
 
+// The largest absolute value 0, 1, ... half samples, along an axis, from the middle of a square, or
+// farther; row(y) is its row y = -half..half.
+template <class S, class Row> std::vector<double> brightest_beyond(int64_t half, const Row &row) {
+    std::vector<double> brightest(static_cast<size_t>(half + 1));
+    std::vector<S> of_columns(static_cast<size_t>(2 * half + 1), S(0)); // nearer to the middle
+    for (int64_t off = 0; off <= half; ++off) {
+        const S *const low = row(-off), *const high = row(off);
+        const auto left = static_cast<size_t>(half - off), right = static_cast<size_t>(half + off);
+        brightest[static_cast<size_t>(off)] = static_cast<double>(
+            std::max({of_columns[left], of_columns[right], largest(low + left, 2 * off + 1),
+                      largest(high + left, 2 * off + 1)}));
+        keep_largest(low, 2 * half + 1, of_columns.data());
+        keep_largest(high, 2 * half + 1, of_columns.data());
+    }
+    for (size_t r = brightest.size() - 1; r-- > 0;)
+        brightest[r] = std::max(brightest[r], brightest[r + 1]);
+    return brightest;
+}
+
 // What sums of modes lack that are cut short, if each counts so many times at most. All modes have
 // as many rings.
 class LeftOut {
   public:
     LeftOut() = default;
     LeftOut(std::span<const LightMode> modes, std::span<const double> weights);
+    // Of modes that are so bright, by mode and ring.
+    LeftOut(std::span<const std::vector<double>> brightest, std::span<const double> weights);
 
     // All modes but the first `count`, in any pixel.
-    double but_for(size_t count) const { return beyond_[0][count]; }
-    // All modes, by ring: 0, 1, 2, ... native pixels from the star or farther.
-    std::vector<double> all() const;
+    double but_for(size_t count) const { return beyond_[count * rings_]; }
     // By mode the radius, native pixels, beyond which it may be left out of a stamp of that radius,
     // so that no pixel lacks more than `most`; modes that may be left out altogether are not
     // listed.
     std::vector<double> radii(double radius, double most) const;
 
   private:
-    std::vector<std::vector<double>> beyond_; // [r][n]: r native pixels, after n modes
+    void add_up(size_t mode, const std::vector<double> &brightest, double weight);
+
+    size_t rings_ = 1;
+    std::vector<double> beyond_{0}; // [n * rings + r]: after n modes, r native pixels
 };
 
 // How far from a field's middle stamps of a radius, native pixels, take samples.

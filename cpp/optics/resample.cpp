@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "optics/resample.hpp"
 
+#include "numerics/chebyshev.hpp"
 #include "numerics/dispatch.hpp"
 #include "optics/sum_blocks.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace wfpsf {
@@ -76,56 +80,104 @@ WFPSF_VECTORISED void sort_by_remainder(const double *line, int64_t step, int64_
     }
 }
 
-// A row of sums along y at a time, then the sums along x. The grid is a block wide at least.
-template <class T>
-void sum_both_axes(View<const double> in, const Sums &x, const Sums &y, double scale, View<T> out) {
-    // Whole cache lines, where the grid's rows are such.
-    const int64_t origin = std::min(x.inputs_begin() / 8 * 8, in.nx - block);
-    const int64_t columns = x.first_of(x.count - 1) + x.taps - origin;
-    const int64_t inside = std::min(blocks_for(columns), (in.nx - origin) / block * block);
-    const int64_t step = x.step, run = (columns + step - 1) / step;
-    // A block may read beyond the samples: zeros, or another remainder's.
-    Plane<double> buffers(blocks_for(std::max(run * step, x.count)) + block, 3);
-    double *const sorted = buffers.view().row(0), *const sums = buffers.view().row(1);
-    double *const line = step == 1 ? sorted : buffers.view().row(2);
-    const int64_t phases = std::min(x.phases, x.count);
-    std::vector<const double *> starts; // [phase * step + remainder]
-    for (int64_t phase = 0; phase < phases; ++phase)
-        for (int64_t remainder = 0; remainder < step; ++remainder) {
-            const int64_t input = x.first_of(phase) - origin + remainder;
-            starts.push_back(sorted + input % step * run + input / step);
+// Some columns of a grid, which is a block wide at least: a row of sums along y at a time, sorted for
+// the sums along x.
+class Columns {
+  public:
+    Columns(View<const double> in, int64_t begin, int64_t end, int64_t step)
+        // Whole cache lines, where the grid's rows are such.
+        : in_(in), step_(step), origin_(std::min(begin / 8 * 8, in.nx - block)),
+          count_(end - origin_),
+          inside_(std::min(blocks_for(count_), (in.nx - origin_) / block * block)),
+          run_((count_ + step - 1) / step), line_(step == 1 ? 0 : length(), 1) {}
+
+    // Of a sorted row. A block may read beyond the samples: zeros, or another remainder's.
+    int64_t length() const { return blocks_for(run_ * step_) + block; }
+    // Where a sorted row holds an input.
+    int64_t at(int64_t input) const {
+        return (input - origin_) % step_ * run_ + (input - origin_) / step_;
+    }
+    void sum(const Sums &y, int64_t j, double *sorted) {
+        double *const line = step_ == 1 ? sorted : line_.view().data;
+        const double *const rows = in_.row(y.first_of(j)) + origin_;
+        sum_blocks(y.weights_of(j), y.taps, &rows, 1, in_.stride_y, inside_, line);
+        if (inside_ < count_) {
+            const int64_t last = in_.nx - origin_ - block;
+            const double *const there = rows + last;
+            sum_blocks(y.weights_of(j), y.taps, &there, 1, in_.stride_y, block, line + last);
         }
-    for (int64_t j = 0; j < y.count; ++j) {
-        const double *const rows = in.row(y.first_of(j)) + origin;
-        sum_blocks(y.weights_of(j), y.taps, &rows, 1, in.stride_y, inside, line);
-        if (inside < columns) {
-            const double *const last = rows + in.nx - origin - block;
-            sum_blocks(y.weights_of(j), y.taps, &last, 1, in.stride_y, block,
-                       line + in.nx - origin - block);
-        }
-        if (step > 1)
-            sort_by_remainder(line, step, run, sorted);
-        for (int64_t phase = 0; phase < phases; ++phase) {
-            const int64_t count = (x.count - phase + x.phases - 1) / x.phases;
-            sum_blocks(x.weights_of(phase), x.taps, &starts[static_cast<size_t>(phase * step)],
-                       step, 1, count, sums);
-            T *pixel = &out(phase, j);
-            for (int64_t i = 0; i < count; ++i, pixel += out.stride_x * x.phases)
+        if (step_ > 1)
+            sort_by_remainder(line, step_, run_, sorted);
+    }
+
+  private:
+    View<const double> in_;
+    int64_t step_, origin_, count_, inside_, run_;
+    Plane<double> line_;
+};
+
+// The sums along x of one such row after another.
+class SumsAlongX {
+  public:
+    SumsAlongX(const Sums &x, const Columns &columns)
+        : x_(x), phases_(std::min(x.phases, x.count)), sums_(blocks_for(x.count), 1) {
+        for (int64_t phase = 0; phase < phases_; ++phase)
+            for (int64_t remainder = 0; remainder < x.step; ++remainder)
+                at_.push_back(columns.at(x.first_of(phase) + remainder));
+        starts_.resize(static_cast<size_t>(x.step));
+    }
+    template <class T> void sum(const double *sorted, double scale, T *out, int64_t stride) {
+        double *const sums = sums_.view().data;
+        auto at = at_.begin();
+        for (int64_t phase = 0; phase < phases_; ++phase) {
+            for (const double *&start : starts_)
+                start = sorted + *at++;
+            const int64_t count = (x_.count - phase + x_.phases - 1) / x_.phases;
+            sum_blocks(x_.weights_of(phase), x_.taps, starts_.data(), x_.step, 1, count, sums);
+            T *pixel = out + phase * stride;
+            for (int64_t i = 0; i < count; ++i, pixel += stride * x_.phases)
                 *pixel = static_cast<T>(scale * sums[i]);
         }
     }
+
+  private:
+    const Sums &x_;
+    int64_t phases_;
+    std::vector<int64_t> at_; // [phase * step + remainder]
+    std::vector<const double *> starts_;
+    Plane<double> sums_;
+};
+
+Columns columns_of(View<const double> in, const Sums &x) {
+    return {in, x.inputs_begin(), x.first_of(x.count - 1) + x.taps, x.step};
 }
 
-// A grid narrower than a block gets zeros beside it.
+template <class T>
+void sum_both_axes(View<const double> in, const Sums &x, const Sums &y, double scale, View<T> out) {
+    Columns columns = columns_of(in, x);
+    Plane<double> sorted(columns.length(), 1);
+    SumsAlongX along_x(x, columns);
+    for (int64_t j = 0; j < y.count; ++j) {
+        columns.sum(y, j, sorted.view().data);
+        along_x.sum(sorted.view().data, scale, out.row(j), out.stride_x);
+    }
+}
+
+// What a grid narrower than a block is made.
+Plane<double> beside_zeros(View<const double> in) {
+    Plane<double> wide(block, in.ny);
+    for (int64_t j = 0; j < in.ny; ++j)
+        std::copy_n(in.row(j), in.nx, wide.view().row(j));
+    return wide;
+}
+
 template <class T>
 void sum_both_axes_of_any(View<const double> in, const Sums &x, const Sums &y, double scale,
                           View<T> out) {
     if (in.nx >= block)
         return sum_both_axes(in, x, y, scale, out);
-    Plane<double> wide(block, in.ny);
-    for (int64_t j = 0; j < in.ny; ++j)
-        std::copy_n(in.row(j), in.nx, wide.view().row(j));
-    sum_both_axes(std::as_const(wide).view(), x, y, scale, out);
+    const Plane<double> wide = beside_zeros(in);
+    sum_both_axes(wide.view(), x, y, scale, out);
 }
 
 } // namespace
@@ -141,6 +193,90 @@ template void resample(View<const double>, const BandlimitedInterpolator &, cons
                        const Positions &, double, View<float>);
 template void resample(View<const double>, const BandlimitedInterpolator &, const Positions &,
                        const Positions &, double, View<double>);
+
+struct ShiftedImage::Tables {
+    Plane<double> wide; // of a grid narrower than a block
+    View<const double> grid;
+    int64_t half;           // of the outputs
+    std::vector<Sums> sums; // by degree
+    // Those along y of one degree.
+    int b = -1;
+    int64_t half_of_rows = -1;
+    std::optional<Columns> columns;
+    Plane<double> rows;
+
+    Sums part(int degree, int64_t of) const {
+        Sums part = sums[static_cast<size_t>(degree)];
+        part.begin = half - of;
+        part.count = 2 * of + 1;
+        return part;
+    }
+};
+
+ShiftedImage::ShiftedImage(View<const double> grid, const BandlimitedInterpolator &interpolator,
+                           int64_t numerator, int64_t denominator, int64_t half)
+    : tables_(std::make_unique<Tables>()) {
+    tables_->grid = grid;
+    tables_->half = half;
+    if (grid.nx < block) {
+        tables_->wide = beside_zeros(grid);
+        tables_->grid = std::as_const(tables_->wide).view();
+    }
+    constexpr int nodes = largest_degree + 4;
+    const double step = static_cast<double>(numerator) / static_cast<double>(denominator);
+    const int64_t middle = grid.nx / 2;
+    std::vector<double> shift;
+    std::vector<Sums> at;
+    for (int k = 0; k < nodes; ++k) {
+        shift.push_back(std::cos(std::numbers::pi * (k + 0.5) / nodes));
+        at.push_back(interpolating_sums(
+            interpolator,
+            {static_cast<double>(middle) - (static_cast<double>(half) + shift.back() / 2) * step, 0,
+             2 * half + 1, numerator, denominator}));
+    }
+    // Places move back as the shift grows: the first are those of the first node.
+    Sums none = at[0];
+    const auto phases = static_cast<size_t>(std::min(none.phases, none.count));
+    for (size_t phase = 0; phase < phases; ++phase)
+        none.taps =
+            std::max(none.taps, at.back().first[phase] - at[0].first[phase] + interpolator.taps());
+    none.weights.assign(static_cast<size_t>(none.phases * none.taps), 0.0);
+    tables_->sums.assign(largest_degree + 1, none);
+    for (size_t k = 0; k < at.size(); ++k) {
+        const auto basis = chebyshev(shift[k], largest_degree);
+        for (size_t phase = 0; phase < phases; ++phase) {
+            const double *const weights = &at[k].weights[phase * static_cast<size_t>(at[k].taps)];
+            const size_t begin = phase * static_cast<size_t>(none.taps) +
+                                 static_cast<size_t>(at[k].first[phase] - none.first[phase]);
+            for (size_t a = 0; a <= largest_degree; ++a)
+                for (size_t tap = 0; tap < static_cast<size_t>(at[k].taps); ++tap)
+                    tables_->sums[a].weights[begin + tap] +=
+                        (a == 0 ? 1.0 : 2.0) / nodes * basis[a] * weights[tap];
+        }
+    }
+}
+
+ShiftedImage::~ShiftedImage() = default;
+
+Plane<double> ShiftedImage::coefficients(int a, int b, int64_t half) {
+    Tables &t = *tables_;
+    if (b != t.b || half > t.half_of_rows) {
+        t.b = b;
+        t.half_of_rows = half;
+        t.columns.emplace(columns_of(t.grid, t.part(0, half)));
+        const Sums y = t.part(b, half);
+        if (t.columns->length() > t.rows.nx() || y.count > t.rows.ny())
+            t.rows = Plane<double>(t.columns->length(), y.count);
+        for (int64_t j = 0; j < y.count; ++j)
+            t.columns->sum(y, j, t.rows.view().row(j));
+    }
+    const Sums x = t.part(a, half);
+    SumsAlongX along_x(x, *t.columns);
+    auto out = Plane<double>::unset(x.count, x.count);
+    for (int64_t j = 0; j < x.count; ++j)
+        along_x.sum(t.rows.view().row(t.half_of_rows - half + j), 1, out.view().row(j), 1);
+    return out;
+}
 
 Plane<double> filtered(View<const double> grid, const SeparableFilter &filter) {
     const auto shrunk = [](int64_t n, const std::vector<double> &taps) {

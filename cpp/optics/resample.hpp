@@ -6,6 +6,7 @@
 #include "numerics/bandlimited.hpp"
 #include "optics/blur.hpp"
 
+#include <memory>
 #include <vector>
 
 namespace wfpsf {
@@ -22,6 +23,27 @@ struct Positions {
 template <class T>
 void resample(View<const double> grid, const BandlimitedInterpolator &interpolator,
               const Positions &x, const Positions &y, double scale, View<T> out);
+
+// The samples of images that lie about the middle of a grid, as polynomials of where they lie: sample
+// (i, j) is that of the grid (i - dx, j - dy) numerator / denominator from its middle,
+// |dx|, |dy| <= 1/2.
+class ShiftedImage {
+  public:
+    static constexpr int largest_degree = 15;
+
+    // For |i|, |j| <= half, so that all places lie interpolator.half_width() samples inside the grid.
+    ShiftedImage(View<const double> grid, const BandlimitedInterpolator &interpolator,
+                 int64_t numerator, int64_t denominator, int64_t half);
+    ~ShiftedImage();
+
+    // What Chebyshev's T_a(2 dx) T_b(2 dy) count in the samples within `half` of the middle. Those
+    // of one b after another, the widest first, take the least time.
+    Plane<double> coefficients(int a, int b, int64_t half);
+
+  private:
+    struct Tables;
+    std::unique_ptr<Tables> tables_;
+};
 
 // The grid filtered along both axes; smaller by the filter's half width on each side.
 Plane<double> filtered(View<const double> grid, const SeparableFilter &filter);

@@ -19,8 +19,17 @@ inline int64_t blocks_for(int64_t count) {
 // one remainder modulo `step` read from starts[remainder] on, each `stride` after the one before.
 void sum_blocks(const double *weights, int64_t taps, const double *const *starts, int64_t step,
                 int64_t stride, int64_t count, double *sums);
+void sum_blocks(const float *weights, int64_t taps, const float *const *starts, int64_t step,
+                int64_t stride, int64_t count, float *sums);
 
 // sums[i] += weight * values[i].
 void add_scaled(double weight, const double *values, int64_t count, double *sums);
+void add_scaled(float weight, const float *values, int64_t count, float *sums);
+
+// The largest absolute value; or most[i] = the larger of it and that of values[i].
+double largest(const double *values, int64_t count);
+float largest(const float *values, int64_t count);
+void keep_largest(const double *values, int64_t count, double *most);
+void keep_largest(const float *values, int64_t count, float *most);
 
 } // namespace wfpsf

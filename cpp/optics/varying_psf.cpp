@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <compare>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <utility>
@@ -21,12 +22,18 @@ namespace {
 
 constexpr int largest_degree = largest_chebyshev_degree;
 
+// Native pixels beyond the radius that fields reach: a stamp's pixels are polynomials of the star's
+// place all over the pixel that holds it.
+constexpr double margin = 1;
+
 // How eps is shared out: to the exact PSFs, to the fields that are left out, to the interpolation,
 // and to what is left out of single stars.
 constexpr double share_of_exact = 0.4, share_of_modes = 0.05, share_of_places = 0.45,
                  share_of_stars = 0.1;
-// How that is shared out in turn: to a cell's polynomials, to its fields, and to stars.
-constexpr double share_of_cells = 0.25, share_of_building = 0.25;
+// How that is shared out in turn: to the coefficients for all places, to a cell's polynomials, to its
+// coefficients, and to stars.
+constexpr double share_of_all = 0.1, share_of_cells = 0.25, share_of_building = 0.25,
+                 share_of_drawing = 0.4;
 
 // Rows and columns begin <= i < end of a field that stamps of that radius are drawn from.
 struct Window {
@@ -110,7 +117,7 @@ VaryingPsf::VaryingPsf(OpticsAt optics, bool varies, Light light, const PsfSetti
     : optics_(std::move(optics)), light_(std::move(light)), settings_(settings), region_(region),
       plain_(std::move(make_fields(
           optics_((region.x0 + region.x1) / 2, (region.y0 + region.y1) / 2), {&light_, 1},
-          exact_settings(settings, varies), settings.radius, manners)[0])) {
+          exact_settings(settings, varies), settings.radius + margin, manners)[0])) {
     const KeptMemory kept;
     exact_psfs_ = 1;
     error_ = plain_.error;
@@ -122,7 +129,7 @@ VaryingPsf::VaryingPsf(OpticsAt optics, bool varies, Light light, const PsfSetti
         falls_.push_back(std::max(error_far_off, std::sqrt(brightest / mode_[0].largest())));
     ExactFields exact(*this);
     double done = 0.1; // at each level half of what was left
-    double radius = settings_.radius;
+    double radius = settings_.radius + margin;
     for (const int degree : {0, 1, 2, 4, 8, largest_degree}) {
         degree_ = degree;
         manners.require_memory(2 * (degree_ + 1) * (degree_ + 1) * plain_.value.nx() *
@@ -292,10 +299,26 @@ struct VaryingPsf::CellStars {
     std::vector<size_t> stars;
 };
 
-std::vector<VaryingPsf::CellStars> VaryingPsf::by_cell(std::span<const Place> places,
+std::vector<VaryingPsf::CellStars> VaryingPsf::by_cell(std::span<const size_t> which,
+                                                       std::span<const Place> places,
                                                        std::span<const StarDetail> details) const {
-    // Stars that may lack little need small cells, and have theirs apart from others.
-    std::map<double, int64_t> across_by_left_out;
+    // Stars that may lack little need small cells, and have theirs apart from others. Many stars
+    // are worth more cells than they need: nearer to the middle fewer corrections count.
+    struct Class {
+        size_t stars = 0;
+        int64_t across = 0; // cells along each axis
+    };
+    std::map<double, Class> classes; // by left_out
+    for (const size_t i : which)
+        ++classes[details[i].left_out].stars;
+    constexpr size_t enough = 400; // in a cell
+    constexpr int64_t most = 64;
+    for (auto &[left_out, own] : classes) {
+        own.across = cells_across(mode_, share_of_cells * left_out, most);
+        while (own.across > 0 && 2 * own.across <= most &&
+               own.stars > enough * static_cast<size_t>(4 * own.across * own.across))
+            own.across *= 2;
+    }
     struct Key {
         int64_t across, b, a; // cells along each axis, and which
         auto operator<=>(const Key &) const = default;
@@ -305,15 +328,9 @@ std::vector<VaryingPsf::CellStars> VaryingPsf::by_cell(std::span<const Place> pl
     const auto alone = [&](size_t i) {
         all.push_back({{places[i].x, places[i].y, 0}, details[i].radius, details[i].left_out, {i}});
     };
-    for (size_t i = 0; i < places.size(); ++i) {
+    for (const size_t i : which) {
         const StarDetail &detail = details[i];
-        auto known = across_by_left_out.find(detail.left_out);
-        if (known == across_by_left_out.end())
-            known =
-                across_by_left_out
-                    .emplace(detail.left_out, cells_across(mode_, share_of_cells * detail.left_out))
-                    .first;
-        const int64_t across = known->second;
+        const int64_t across = classes[detail.left_out].across;
         if (across == 0) {
             alone(i);
             continue;
@@ -330,7 +347,7 @@ std::vector<VaryingPsf::CellStars> VaryingPsf::by_cell(std::span<const Place> pl
         cell.left_out = std::min(cell.left_out, detail.left_out);
         cell.stars.push_back(i);
     }
-    constexpr size_t few = 6; // stars, that take no longer one by one
+    constexpr size_t few = 30; // stars, that take no longer one by one
     for (auto &[key, cell] : cells) {
         if (cell.stars.size() > few)
             all.push_back(std::move(cell));
@@ -354,21 +371,64 @@ void VaryingPsf::add(std::span<const Star> stars, std::span<const StarDetail> de
     }
     if (image.empty() || stars.empty())
         return;
-    const std::vector<CellStars> cells = by_cell(places, details);
-    on_bands_of_rows(low, high, image.ny, threads, [&](int64_t first_row, int64_t last_row) {
-        StarRows<T> rows(oversampling, image, first_row, last_row);
-        for (const CellStars &cell : cells) {
-            std::optional<CellPsf> psf;
-            const bool alone = cell.cell.half == 0;
-            for (const size_t i : cell.stars) {
-                if (!rows.reached_by(stars[i], details[i].radius))
-                    continue;
-                if (!psf)
-                    psf.emplace(mode_, cell.cell, plain_, cell.radius,
-                                cell.left_out * (alone ? 1 : share_of_building));
-                psf->add(stars[i], places[i].x, places[i].y, details[i].radius,
-                         details[i].left_out * (1 - share_of_cells - share_of_building), rows);
+    const auto on_rows = [&](const auto &work) {
+        on_bands_of_rows(low, high, image.ny, threads, [&](int64_t first_row, int64_t last_row) {
+            const KeptMemory kept;
+            StarRows<T> rows(oversampling, image, first_row, last_row);
+            work(rows);
+        });
+    };
+    // From coefficients of type S, unless they are so few that making those takes longer; returns
+    // the others, and those that coefficients will not do for.
+    const auto by_cells = [&]<class S>(S, const std::vector<size_t> &which) {
+        constexpr size_t few = 100;
+        if (which.size() < few)
+            return which;
+        StarDetail most{0, INFINITY};
+        for (const size_t i : which) {
+            most.radius = std::max(most.radius, details[i].radius);
+            most.left_out = std::min(most.left_out, details[i].left_out);
+        }
+        const CellPsf<S> all(mode_, plain_, most.radius, oversampling, share_of_all * most.left_out,
+                             threads);
+        std::vector<size_t> served, others;
+        for (const size_t i : which)
+            (all.serves(share_of_all * details[i].left_out) ? served : others).push_back(i);
+        const std::vector<CellStars> cells = by_cell(served, places, details);
+        on_rows([&](StarRows<T> &rows) {
+            CellPsf<S> anywhere(all);
+            for (const CellStars &cell : cells) {
+                const bool alone = cell.cell.half == 0;
+                std::optional<CellPsf<S>> own;
+                for (const size_t i : cell.stars) {
+                    if (!rows.reached_by(stars[i], details[i].radius))
+                        continue;
+                    if (!alone && !own)
+                        own.emplace(all, cell.cell, share_of_building * cell.left_out);
+                    (alone ? anywhere : *own)
+                        .add(stars[i], places[i].x, places[i].y, details[i].radius,
+                             share_of_drawing * details[i].left_out, rows);
+                }
             }
+        });
+        return others;
+    };
+    std::vector<size_t> loose, tight;
+    constexpr double rounding = 1e-6; // of a few sums
+    for (size_t i = 0; i < stars.size(); ++i)
+        (details[i].left_out > rounding * mode_[0].largest() ? loose : tight).push_back(i);
+    std::vector<size_t> alone = by_cells(float(), loose);
+    std::ranges::copy(by_cells(double(), tight), std::back_inserter(alone));
+    on_rows([&](StarRows<T> &rows) {
+        for (const size_t i : alone) {
+            const auto &[radius, left_out] = details[i];
+            if (!rows.reached_by(stars[i], radius))
+                continue;
+            if (mode_.size() == 1)
+                rows.add(plain_, stars[i], radius);
+            else
+                rows.add(field_at(mode_, places[i].x, places[i].y, plain_, radius, left_out),
+                         stars[i], radius);
         }
     });
 }

@@ -77,7 +77,7 @@ class VaryingPsf {
     Place scaled(double x, double y) const; // to [-1, 1], the nearest place there
     Field sum_at(double x, double y) const;
     struct CellStars;
-    std::vector<CellStars> by_cell(std::span<const Place> places,
+    std::vector<CellStars> by_cell(std::span<const size_t> which, std::span<const Place> places,
                                    std::span<const StarDetail> details) const;
 
     OpticsAt optics_;

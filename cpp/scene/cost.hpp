@@ -37,22 +37,21 @@ inline double shared_psf(double radius, double eps, double bandwidth, bool varie
            60 * within(std::max(4.0, core / 2));
 }
 
-// Samples of a field that stamps of a radius are drawn from.
-inline double samples(double radius) {
-    constexpr double per_pixel = 5, filter = 8;
-    const double width = 2 * per_pixel * radius + 2 * filter;
-    return width * width;
-}
-
 // A star's stamp of width^2 pixels from a field made to `eps`, of so many native pixels' radius.
 inline double stamp(double width, double radius, double eps) {
     return 0.8e-6 + 0.15e-9 * (5 + digits(eps)) * width * (width + 2 * 5 * radius);
 }
 
-// What one of many stars takes to get the PSF of its place, as it differs within a radius from what
-// those near by share.
-inline double correction(double radius, double eps) {
-    return 2e-6 + stamp(2 * radius + 1, radius, eps) + 0.55e-9 * samples(radius);
+// One of many stars' stamps, of width^2 pixels, each of which may lack that share of the light.
+inline double shared_stamp(double width, double left_out) {
+    return 0.3e-6 + 2e-8 * std::pow(digits(left_out), 3) + 0.9e-9 * width * width;
+}
+
+// What so many stars take beside, to get the PSFs of their places: cells, or for each its own.
+inline double places(double stars, double width, double left_out) {
+    constexpr double one = 3e-5;
+    const double cells = 64 * std::sqrt(1.5e-5 / left_out);
+    return std::min(stars * one, cells * (1e-4 + 1.1e-7 * width * width));
 }
 
 // Far light on that many pixels, drawn by itself; and from a table, where it is bright enough.

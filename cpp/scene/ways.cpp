@@ -189,15 +189,10 @@ void Ways::add_far(const Way &way, double time_s, const SharedFarLight &far,
     }
 }
 
-// PSFs differ as far out as what they differ by counts.
-double Ways::shared_stamp(double radius, double eps, double left_out) const {
-    const double stamp = cost::stamp(width(radius), radius, eps);
-    if (!colour_.varies || differs * colour_.profile.peak() <= left_out)
-        return stamp;
-    double reach = 1;
-    while (reach < radius && differs * colour_.profile.brightest_beyond(reach) > left_out)
-        ++reach;
-    return stamp + cost::correction(reach, eps);
+double Ways::shared_stamps(double radius, double left_out) const {
+    const double stamps = count() * cost::shared_stamp(width(radius), left_out);
+    const bool differ = colour_.varies && differs * colour_.profile.peak() > left_out;
+    return differ ? stamps + cost::places(count(), width(radius), left_out) : stamps;
 }
 
 void Ways::of_shared(double eps, double from, double to, const SharedFarLight &far,
@@ -212,7 +207,7 @@ void Ways::of_shared(double eps, double from, double to, const SharedFarLight &f
             if (radius <= from)
                 continue;
             way.radius = radius;
-            const double time = count() * shared_stamp(radius, eps, way.left_out);
+            const double time = shared_stamps(radius, way.left_out);
             if (far.needed)
                 add_far(way, time, far, take);
             else

@@ -111,7 +111,7 @@ class Ways {
     double count() const { return static_cast<double>(group_.count); }
     double pixels(double radius) const;
     double width(double radius) const;
-    double shared_stamp(double radius, double eps, double left_out) const;
+    double shared_stamps(double radius, double left_out) const; // seconds
     double cut(double radius) const;
     double mean(double light, double cut) const;
     PixelError left_out(const Way &way, double local, double from, double cut) const;

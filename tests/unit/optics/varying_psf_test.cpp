@@ -175,6 +175,68 @@ TEST(VaryingPsf, ManyStarsTakeNoMoreThanTheyMayLack) {
     }
 }
 
+// Every pixel of stamps of faint and bright stars together, at two samplings, in images of floats;
+// some stand at the image's borders. Truth is a sum of fields, in double.
+TEST(VaryingPsf, StarsOfAllKindsAreDrawnTogether) {
+    const OpticsAt optics = roman_optics(7, "J129");
+    const VaryingPsf model(optics, true, monochromatic(1292e-9), settings(1e-5, 12.5), detector);
+    const double x0 = -200, y0 = 3400;
+    for (const int64_t n : {1, 2}) {
+        const auto scale = static_cast<double>(n);
+        const int64_t size = 900 * n, across = 30;
+        std::mt19937 random(11);
+        std::uniform_real_distribution<double> offset(-0.5, 0.5);
+        std::vector<Star> stars;
+        std::vector<StarDetail> details;
+        const StarDetail kinds[] = {
+            {12.5, 3e-7}, {4.25, 1e-3}, {12, 2e-5}, {7.5, 1e-7}, {10, 1e-4}};
+        for (int64_t i = 0; i < across * across; ++i) {
+            // Whole and half pixels too.
+            const double shift = i % 3 == 0 ? 0.5 : 0;
+            const auto at = [&](int64_t place) {
+                return scale * static_cast<double>(30 * place) +
+                       (i % 4 == 0 ? shift : 3 * scale * offset(random));
+            };
+            stars.push_back({at(i % across), at(i / across), 1});
+            details.push_back(kinds[i % 5]);
+        }
+        Plane<float> image(size, size), threaded(size, size);
+        Plane<double> turned(size, size);
+        View<double> backwards = turned.view();
+        backwards = {&turned(size - 1, 0), size, size, -1, size};
+        model.add(stars, details, x0, y0, n, image.view(), 1);
+        model.add(stars, details, x0, y0, n, threaded.view(), 3);
+        model.add(stars, details, x0, y0, n, backwards, 2);
+        double worst = 0;
+        for (size_t i = 0; i < stars.size(); i += 3) {
+            const Star &star = stars[i];
+            const double radius = scale * details[i].radius;
+            const auto left = static_cast<int64_t>(std::floor(star.x - radius)) - 1;
+            const auto low = static_cast<int64_t>(std::floor(star.y - radius)) - 1;
+            const auto width = static_cast<int64_t>(2 * radius) + 4;
+            Plane<double> expected(width, width);
+            model
+                .at(x0 + (star.x - (scale - 1) / 2) / scale,
+                    y0 + (star.y - (scale - 1) / 2) / scale)
+                .draw({star.x - static_cast<double>(left), star.y - static_cast<double>(low), 1}, n,
+                      expected.view());
+            for (int64_t y = std::max<int64_t>(low, 0); y < std::min(low + width, size); ++y)
+                for (int64_t x = std::max<int64_t>(left, 0); x < std::min(left + width, size);
+                     ++x) {
+                    const bool within = std::abs(static_cast<double>(x) - star.x) <= radius &&
+                                        std::abs(static_cast<double>(y) - star.y) <= radius;
+                    const double truth = within ? expected(x - left, y - low) : 0;
+                    const double most = details[i].left_out / (scale * scale);
+                    ASSERT_EQ(image(x, y), threaded(x, y));
+                    ASSERT_NEAR(backwards(x, y), truth, most);
+                    ASSERT_NEAR(image(x, y), truth, most + 1e-7 * truth);
+                    worst = std::max(worst, std::abs(image(x, y) - truth) / most);
+                }
+        }
+        EXPECT_GT(worst, 0.01); // it was used
+    }
+}
+
 TEST(VaryingPsf, EqualCallsGiveEqualBits) {
     const auto pixel = [] {
         Plane<double> stamp(5, 5);
