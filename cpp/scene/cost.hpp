@@ -54,19 +54,19 @@ inline double places(double stars, double width, double left_out) {
     return std::min(stars * one, cells * (1e-4 + 1.1e-7 * width * width));
 }
 
-// Far light on that many pixels, drawn by itself; and from a table, where it is bright enough.
+// Far light on that many pixels, drawn by itself; and from tables, where it is bright enough.
 inline double far_light(double pixels) {
-    return 1e-4 + 6e-9 * pixels;
+    return 1e-4 + 3e-9 * pixels;
 }
 inline double far_blocks(double pixels) {
-    return 2e-6 + 7e-9 * pixels;
+    return 2e-6 + 2e-8 * pixels;
 }
 
 // What they are made from.
-constexpr double making_far_light = 0.27;
+constexpr double making_far_light = 0.06;
 inline double far_tables(double radius, bool varies) {
     const double native = 4 * radius * radius;
-    return varies ? 9 * making_far_light + 2e-6 * native : making_far_light + 0.8e-6 * native;
+    return varies ? 9 * making_far_light + 5e-6 * native : making_far_light + 2e-6 * native;
 }
 
 // What galaxies are drawn with.

@@ -13,8 +13,8 @@ namespace wfpsf {
 
 namespace {
 
-constexpr int64_t taps = 4;  // along an axis
-constexpr int64_t block = 8; // native pixels: one vector
+constexpr int64_t taps = 4; // along an axis
+constexpr int64_t side = 8; // of a block, native pixels: one vector
 
 // The first pixel of a block is the sum of these coefficients; the next ones are beside them, the
 // next rows' `stride` after them.
@@ -25,13 +25,13 @@ struct Taps {
 };
 
 WFPSF_VECTORISED void sum(const Taps &of, float *pixels) {
-    for (int64_t y = 0; y < block; ++y) {
-        float sums[block] = {};
+    for (int64_t y = 0; y < side; ++y) {
+        float sums[side] = {};
         for (size_t k = 0; k < of.first.size(); ++k)
-            for (int64_t i = 0; i < block; ++i)
+            for (int64_t i = 0; i < side; ++i)
                 sums[i] += of.weight[k] * of.first[k][y * of.stride + i];
-        for (int64_t i = 0; i < block; ++i)
-            pixels[y * block + i] = sums[i];
+        for (int64_t i = 0; i < side; ++i)
+            pixels[y * side + i] = sums[i];
     }
 }
 
@@ -68,7 +68,7 @@ void to_coefficients(SampledLight &low, const SampledLight &middle, SampledLight
 
 // Blocks of a table reach a little farther than its light.
 SampledLight::SampledLight(int64_t samples, double radius)
-    : per_pixel(samples), half(static_cast<int64_t>(std::ceil(radius)) + 3 * block),
+    : per_pixel(samples), half(static_cast<int64_t>(std::ceil(radius)) + 3 * side),
       sample(2 * half * per_pixel + 1, 2 * half * per_pixel + 1) {}
 
 // Samples of every sub-pixel phase are an image of native pixels of their own.
@@ -102,21 +102,21 @@ void SampledLight::add(const Psf &psf) {
 
 FarTable::FarTable(SampledLight light, double radius)
     : per_pixel_(light.per_pixel), half_(light.half), radius_(radius) {
-    const auto blocks = static_cast<int64_t>(std::ceil(radius / block)) + 1;
+    const auto blocks = static_cast<int64_t>(std::ceil(radius / side)) + 1;
     for (int64_t b = -blocks; b < blocks; ++b)
         for (int64_t a = -blocks; a < blocks; ++a) {
             float most = 0; // wherever in its pixel the star stands
             double all = 0;
-            for (int64_t y = -per_pixel_; y < block * per_pixel_; ++y)
-                for (int64_t x = -per_pixel_; x < block * per_pixel_; ++x) {
-                    const float here = light.sample((half_ + a * block) * per_pixel_ + x,
-                                                    (half_ + b * block) * per_pixel_ + y);
+            for (int64_t y = -per_pixel_; y < side * per_pixel_; ++y)
+                for (int64_t x = -per_pixel_; x < side * per_pixel_; ++x) {
+                    const float here = light.sample((half_ + a * side) * per_pixel_ + x,
+                                                    (half_ + b * side) * per_pixel_ + y);
                     most = std::max(most, std::abs(here));
                     if (x >= 0 && y >= 0)
                         all += static_cast<double>(here);
                 }
             const auto samples = static_cast<double>(per_pixel_ * per_pixel_);
-            blocks_.push_back({static_cast<double>(most), all / samples, a * block, b * block});
+            blocks_.push_back({static_cast<double>(most), all / samples, a * side, b * side});
         }
     std::ranges::stable_sort(blocks_, std::ranges::greater(), &Block::brightest);
     to_spline_coefficients(light.sample);
@@ -133,9 +133,9 @@ double FarTable::light(double within, double inner, double floor) const {
     const auto part = [](const Block &of, double radius) {
         const auto along = [radius](int64_t first) {
             const auto at = static_cast<double>(first);
-            return std::clamp(std::min(at + block, radius) - std::max(at, -radius), 0.0,
-                              static_cast<double>(block)) /
-                   block;
+            return std::clamp(std::min(at + side, radius) - std::max(at, -radius), 0.0,
+                              static_cast<double>(side)) /
+                   side;
         };
         return along(of.x) * along(of.y);
     };
@@ -183,22 +183,26 @@ void FarTable::add(const Star &star, double inner, double floor, View<T> image, 
     for (size_t v = 0; v < taps; ++v)
         for (size_t u = 0; u < taps; ++u)
             of.weight[v * taps + u] = static_cast<float>(y_axis.weight[v] * x_axis.weight[u]);
-    float pixels[block * block];
+    float pixels[side * side];
     for (const Block &part : blocks_) {
         if (part.brightest <= floor)
             break;
         const int64_t block_x = base_x + part.x, block_y = base_y + part.y;
         const int64_t x0 = std::max({block_x, left, int64_t{0}});
-        const int64_t x1 = std::min({block_x + block - 1, right, image.nx - 1});
+        const int64_t x1 = std::min({block_x + side - 1, right, image.nx - 1});
         const int64_t y0 = std::max({block_y, low, first_row});
-        const int64_t y1 = std::min({block_y + block - 1, top, last_row});
+        const int64_t y1 = std::min({block_y + side - 1, top, last_row});
+        if (x0 > x1 || y0 > y1)
+            continue;
         const auto is_inside = [inner](int64_t pixel, double centre) {
             return std::abs(static_cast<double>(pixel) - centre) <= inner;
         };
-        if (x0 > x1 || y0 > y1 ||
-            (is_inside(x0, star.x) && is_inside(x1, star.x) && is_inside(y0, star.y) &&
-             is_inside(y1, star.y)))
+        const bool left_inside = is_inside(x0, star.x), right_inside = is_inside(x1, star.x);
+        const bool low_inside = is_inside(y0, star.y), top_inside = is_inside(y1, star.y);
+        if (left_inside && right_inside && low_inside && top_inside)
             continue;
+        // The inner part is wider than a block.
+        const bool touches = (left_inside || right_inside) && (low_inside || top_inside);
         for (size_t v = 0; v < taps; ++v)
             for (size_t u = 0; u < taps; ++u)
                 of.first[v * taps + u] = &light_(
@@ -206,12 +210,12 @@ void FarTable::add(const Star &star, double inner, double floor, View<T> image, 
                     ((part.y + y_axis.pixel[v]) * per_pixel_ + y_axis.phase[v]) * per_pixel_ +
                         x_axis.phase[u]);
         sum(of, pixels);
-        for (int64_t y = y0; y <= y1; ++y)
+        for (int64_t y = y0; y <= y1; ++y) {
+            const float *const row = pixels + (y - block_y) * side - block_x;
             for (int64_t x = x0; x <= x1; ++x)
-                if (!is_inside(y, star.y) || !is_inside(x, star.x))
-                    image(x, y) += static_cast<T>(
-                        star.flux *
-                        static_cast<double>(pixels[(y - block_y) * block + x - block_x]));
+                if (!touches || !is_inside(y, star.y) || !is_inside(x, star.x))
+                    image(x, y) += static_cast<T>(star.flux * static_cast<double>(row[x]));
+        }
     }
 }
 
