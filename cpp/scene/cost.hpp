@@ -59,7 +59,7 @@ inline double far_light(double pixels) {
     return 1e-4 + 3e-9 * pixels;
 }
 inline double far_blocks(double pixels) {
-    return 2e-6 + 2e-8 * pixels;
+    return 2e-6 + 1.4e-8 * pixels;
 }
 
 // What they are made from.

@@ -13,8 +13,8 @@ namespace wfpsf {
 
 namespace {
 
-constexpr int64_t taps = 4; // along an axis
-constexpr int64_t side = 8; // of a block, native pixels: one vector
+constexpr int64_t taps = 4;            // along an axis
+constexpr int64_t wide = 16, high = 8; // a block, native pixels
 
 // The first pixel of a block is the sum of these coefficients; the next ones are beside them, the
 // next rows' `stride` after them.
@@ -25,13 +25,12 @@ struct Taps {
 };
 
 WFPSF_VECTORISED void sum(const Taps &of, float *pixels) {
-    for (int64_t y = 0; y < side; ++y) {
-        float sums[side] = {};
+    for (int64_t y = 0; y < high; ++y) {
+        float sums[wide] = {};
         for (size_t k = 0; k < of.first.size(); ++k)
-            for (int64_t i = 0; i < side; ++i)
+            for (int64_t i = 0; i < wide; ++i)
                 sums[i] += of.weight[k] * of.first[k][y * of.stride + i];
-        for (int64_t i = 0; i < side; ++i)
-            pixels[y * side + i] = sums[i];
+        std::copy_n(sums, wide, pixels + y * wide);
     }
 }
 
@@ -54,10 +53,10 @@ constexpr std::array<std::pair<int, int>, 9> order{
     {{1, 1}, {0, 1}, {2, 1}, {1, 0}, {1, 2}, {0, 0}, {2, 0}, {0, 2}, {2, 2}}};
 
 // From the values of a quadratic at -1, 0 and 1 to its coefficients.
-void to_coefficients(SampledLight &low, const SampledLight &middle, SampledLight &high) {
+void to_coefficients(SampledLight &from, const SampledLight &middle, SampledLight &to) {
     for (int64_t y = 0; y < middle.sample.ny(); ++y)
         for (int64_t x = 0; x < middle.sample.nx(); ++x) {
-            float &first = low.sample(x, y), &last = high.sample(x, y);
+            float &first = from.sample(x, y), &last = to.sample(x, y);
             const float slope = (last - first) / 2, mean = (last + first) / 2;
             first = slope;
             last = mean - middle.sample(x, y);
@@ -68,7 +67,7 @@ void to_coefficients(SampledLight &low, const SampledLight &middle, SampledLight
 
 // Blocks of a table reach a little farther than its light.
 SampledLight::SampledLight(int64_t samples, double radius)
-    : per_pixel(samples), half(static_cast<int64_t>(std::ceil(radius)) + 3 * side),
+    : per_pixel(samples), half(static_cast<int64_t>(std::ceil(radius)) + 3 * wide),
       sample(2 * half * per_pixel + 1, 2 * half * per_pixel + 1) {}
 
 // Samples of every sub-pixel phase are an image of native pixels of their own.
@@ -102,21 +101,23 @@ void SampledLight::add(const Psf &psf) {
 
 FarTable::FarTable(SampledLight light, double radius)
     : per_pixel_(light.per_pixel), half_(light.half), radius_(radius) {
-    const auto blocks = static_cast<int64_t>(std::ceil(radius / side)) + 1;
-    for (int64_t b = -blocks; b < blocks; ++b)
-        for (int64_t a = -blocks; a < blocks; ++a) {
+    const auto blocks = [radius](int64_t size) {
+        return static_cast<int64_t>(std::ceil(radius / static_cast<double>(size))) + 1;
+    };
+    for (int64_t b = -blocks(high) * high; b < blocks(high) * high; b += high)
+        for (int64_t a = -blocks(wide) * wide; a < blocks(wide) * wide; a += wide) {
             float most = 0; // wherever in its pixel the star stands
             double all = 0;
-            for (int64_t y = -per_pixel_; y < side * per_pixel_; ++y)
-                for (int64_t x = -per_pixel_; x < side * per_pixel_; ++x) {
-                    const float here = light.sample((half_ + a * side) * per_pixel_ + x,
-                                                    (half_ + b * side) * per_pixel_ + y);
+            for (int64_t y = -per_pixel_; y < high * per_pixel_; ++y)
+                for (int64_t x = -per_pixel_; x < wide * per_pixel_; ++x) {
+                    const float here =
+                        light.sample((half_ + a) * per_pixel_ + x, (half_ + b) * per_pixel_ + y);
                     most = std::max(most, std::abs(here));
                     if (x >= 0 && y >= 0)
                         all += static_cast<double>(here);
                 }
             const auto samples = static_cast<double>(per_pixel_ * per_pixel_);
-            blocks_.push_back({static_cast<double>(most), all / samples, a * side, b * side});
+            blocks_.push_back({static_cast<double>(most), all / samples, a, b});
         }
     std::ranges::stable_sort(blocks_, std::ranges::greater(), &Block::brightest);
     to_spline_coefficients(light.sample);
@@ -131,13 +132,12 @@ FarTable::FarTable(SampledLight light, double radius)
 double FarTable::light(double within, double inner, double floor) const {
     // How much of a block's area is at most so far from the star.
     const auto part = [](const Block &of, double radius) {
-        const auto along = [radius](int64_t first) {
-            const auto at = static_cast<double>(first);
-            return std::clamp(std::min(at + side, radius) - std::max(at, -radius), 0.0,
-                              static_cast<double>(side)) /
-                   side;
+        const auto along = [radius](int64_t first, int64_t size) {
+            const auto at = static_cast<double>(first), length = static_cast<double>(size);
+            return std::clamp(std::min(at + length, radius) - std::max(at, -radius), 0.0, length) /
+                   length;
         };
-        return along(of.x) * along(of.y);
+        return along(of.x, wide) * along(of.y, high);
     };
     double sum = 0;
     for (const Block &of : blocks_) {
@@ -183,15 +183,15 @@ void FarTable::add(const Star &star, double inner, double floor, View<T> image, 
     for (size_t v = 0; v < taps; ++v)
         for (size_t u = 0; u < taps; ++u)
             of.weight[v * taps + u] = static_cast<float>(y_axis.weight[v] * x_axis.weight[u]);
-    float pixels[side * side];
+    float pixels[high * wide];
     for (const Block &part : blocks_) {
         if (part.brightest <= floor)
             break;
         const int64_t block_x = base_x + part.x, block_y = base_y + part.y;
         const int64_t x0 = std::max({block_x, left, int64_t{0}});
-        const int64_t x1 = std::min({block_x + side - 1, right, image.nx - 1});
+        const int64_t x1 = std::min({block_x + wide - 1, right, image.nx - 1});
         const int64_t y0 = std::max({block_y, low, first_row});
-        const int64_t y1 = std::min({block_y + side - 1, top, last_row});
+        const int64_t y1 = std::min({block_y + high - 1, top, last_row});
         if (x0 > x1 || y0 > y1)
             continue;
         const auto is_inside = [inner](int64_t pixel, double centre) {
@@ -211,7 +211,7 @@ void FarTable::add(const Star &star, double inner, double floor, View<T> image, 
                         x_axis.phase[u]);
         sum(of, pixels);
         for (int64_t y = y0; y <= y1; ++y) {
-            const float *const row = pixels + (y - block_y) * side - block_x;
+            const float *const row = pixels + (y - block_y) * wide - block_x;
             for (int64_t x = x0; x <= x1; ++x)
                 if (!touches || !is_inside(y, star.y) || !is_inside(x, star.x))
                     image(x, y) += static_cast<T>(star.flux * static_cast<double>(row[x]));
