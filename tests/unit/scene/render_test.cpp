@@ -75,13 +75,13 @@ TEST(Render, ErrorsOfCrowdsStayWithinTheBudget) {
         const Star star{source.x, source.y, source.flux};
         psf.add({&star, 1}, 1, truth.view(), 1);
     }
-    const ScenePlan plan(optics, sources, {}, {.noise = 0.1, .variance = 100}, crowd);
+    const ScenePlan plan(optics, sources, {}, {.noise = 0.3, .variance = 100}, crowd);
     render(optics, plan, drawn.view(), 1);
     EXPECT_TRUE(plan.meets_budget());
     EXPECT_LT(plan.time_s(), 30) << plan.text();
     EXPECT_LE(worst(drawn, truth, plan.budget().variance), plan.budget().error()) << plan.text();
     const auto smooth = std::ranges::count_if(plan.groups(), [](const PlannedGroup &planned) {
-        return planned.way.is_smooth_beyond() && planned.way.radius < 100;
+        return planned.way.is_smooth_beyond() && planned.way.radius < planned.group.reach / 2;
     });
     EXPECT_GT(smooth, 0);
 }
