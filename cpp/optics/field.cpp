@@ -134,16 +134,18 @@ class Profile {
 };
 
 // The sums over the rule's wavelengths, one a row of weights.
-std::vector<Field> fields_of(const ImageMaker &maker, const Scaling &scaling, const Images &images,
+std::vector<Field> fields_of(const ImageMaker &maker, const Scaling &scaling, Images images,
                              std::span<const double> wavelengths,
                              std::span<const std::vector<double>> weights,
                              const Progress &progress) {
-    std::vector<std::vector<double>> scaled(weights.begin(), weights.end());
-    for (std::vector<double> &own : scaled)
+    ColourSums rule{maker.grid().half(),
+                    {wavelengths.begin(), wavelengths.end()},
+                    {weights.begin(), weights.end()}};
+    for (std::vector<double> &own : rule.weights)
         for (size_t k = 0; k < own.size(); ++k)
             own[k] *= maker.scale(wavelengths[k]);
     std::vector<Field> fields;
-    for (Plane<double> &sum : scaling.sums(images.intensity, wavelengths, scaled, progress)) {
+    for (Plane<double> &sum : scaling.sums(std::move(images.intensity), {&rule, 1}, progress)) {
         Field &field = fields.emplace_back(maker.interpolator());
         field.per_pixel = maker.per_pixel();
         field.grid_size = maker.grid().size;
@@ -217,7 +219,7 @@ std::vector<Field> make_fields(const Optics &optics, std::span<const Light> ligh
         const auto [bluest, reddest] = std::ranges::minmax(together(spectra).wavelength);
         const Scaling scaling(maker, bluest, reddest, shares.of_scaling * tolerance);
         manners.require_memory(memory(maker, scaling, lights.size()), "a field of that radius");
-        const Images images(maker, scaling, manners.progress.between(0, 0.6));
+        Images images(maker, scaling, manners.progress.between(0, 0.6));
         const Profile profile(images.intensity, optics.aperture->area());
         const auto [rule, weights, missed] = choose_wavelengths(
             spectra, maker.longest_path(),
@@ -225,8 +227,8 @@ std::vector<Field> make_fields(const Optics &optics, std::span<const Light> ligh
                 return profile.in_any_colour(maker.distance(path), range);
             },
             shares.of_rule * tolerance);
-        std::vector<Field> fields = fields_of(maker, scaling, images, rule.wavelengths(), weights,
-                                              manners.progress.between(0.6, 1));
+        std::vector<Field> fields = fields_of(maker, scaling, std::move(images), rule.wavelengths(),
+                                              weights, manners.progress.between(0.6, 1));
         double error = 0;
         for (Field &field : fields) {
             field.shortest_wavelength = bluest;
@@ -244,9 +246,9 @@ std::vector<Field> make_fields(const Optics &optics, std::span<const Light> ligh
 Field make_field_like(const Field &like, const Optics &optics, const PsfSettings &settings,
                       double radius) {
     const Remaking as(like, optics, settings, radius);
-    const Images images(as.maker, as.scaling, {});
-    Field field =
-        std::move(fields_of(as.maker, as.scaling, images, as.wavelengths, {&as.weights, 1}, {})[0]);
+    Images images(as.maker, as.scaling, {});
+    Field field = std::move(fields_of(as.maker, as.scaling, std::move(images), as.wavelengths,
+                                      {&as.weights, 1}, {})[0]);
     field.shortest_wavelength = like.shortest_wavelength;
     field.longest_wavelength = like.longest_wavelength;
     field.tolerance = like.tolerance;
@@ -268,11 +270,11 @@ std::vector<Field> make_field_changes(const Field &like, const Optics &optics,
             changes[i].push_back(std::move(of_all[i]));
     }
     std::vector<Field> fields;
+    const ColourSums rule{as.maker.grid().half(), as.wavelengths, {weights}};
     for (std::vector<Plane<double>> &images : changes) {
         Field &field = fields.emplace_back(as.maker.interpolator());
         field.per_pixel = as.maker.per_pixel();
-        field.value = as.maker.averaged(
-            as.scaling.sums(std::exchange(images, {}), as.wavelengths, {&weights, 1})[0]);
+        field.value = as.maker.averaged(as.scaling.sums(std::exchange(images, {}), {&rule, 1})[0]);
     }
     return fields;
 }

@@ -56,6 +56,11 @@ class ImageMaker {
         return AveragedSamples(bandwidth(shortest_wavelength_), 0, optics_.aperture->outline(),
                                eps / strength_);
     }
+    // The same for any light with no frequencies above theirs, not the whole image's: to `eps` of
+    // the integral of its absolute spectrum.
+    BandlimitedInterpolator interpolator_of_any(double eps) const {
+        return BandlimitedInterpolator(bandwidth(shortest_wavelength_), eps);
+    }
     double strength() const { return strength_; } // of the spectrum that bounds an image's
 
     // What the averages and the interpolation add to an image's error, in units of the unaberrated
