@@ -78,9 +78,8 @@ struct Images {
 
     Images(const ImageMaker &maker, const Scaling &scaling, const Progress &progress) {
         const std::vector<double> &wavelengths = scaling.wavelengths();
-        for (size_t j = 0; j < wavelengths.size(); ++j) {
-            progress.report(static_cast<double>(j) / static_cast<double>(wavelengths.size()));
-            Diffraction image = maker.diffract(wavelengths[j], scaling.grid(wavelengths[j]));
+        progress.report(0);
+        for (Diffraction &image : maker.diffract(wavelengths, scaling.grid(wavelengths[0]))) {
             intensity.push_back(std::move(image.intensity));
             error.push_back(image.error);
             model_error.push_back(image.model_error);

@@ -38,7 +38,9 @@ class ImageMaker {
     double scale(double wavelength) const;
     double unaberrated_peak(double wavelength) const;
 
-    Diffraction diffract(double wavelength, const FocalGrid &grid) const;
+    // The grid is that of the first wavelength, the others' steps in proportion.
+    std::vector<Diffraction> diffract(std::span<const double> wavelengths,
+                                      const FocalGrid &grid) const;
     // By the factors of wavefronts in waves: see Aperture::changes().
     std::vector<Plane<double>> changes(double wavelength, std::span<const Wavefront> by,
                                        const FocalGrid &grid) const;
