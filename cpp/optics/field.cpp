@@ -102,8 +102,9 @@ class Profile {
                     const int64_t end = std::min(x + run, image.nx());
                     const double farther = std::max(std::abs(static_cast<double>(x) - half),
                                                     std::abs(static_cast<double>(end - 1) - half));
-                    double &most = brightest_[static_cast<size_t>(
-                        std::hypot(farther, static_cast<double>(y) - half))];
+                    const double off = static_cast<double>(y) - half;
+                    double &most =
+                        brightest_[static_cast<size_t>(std::sqrt(farther * farther + off * off))];
                     most = std::max(most, *std::max_element(row + x, row + end));
                 }
             }

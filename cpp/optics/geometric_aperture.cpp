@@ -348,8 +348,9 @@ template <class Pupil> class GeometricAperture final : public Aperture {
         // Far from the core a wrong amplitude meets a small one, so that the intensity is better
         // than the amplitude; the transform's errors are those of many sources, of which most
         // cancel. So start loosely and let the check decide.
+        constexpr double loosely = 8;
         double before = std::numeric_limits<double>::infinity();
-        for (double asked = eps;;) {
+        for (double asked = loosely * eps;;) {
             const Quadrature own{wavenumber, std::min(0.1, 30 * asked)};
             const Quadrature finer{(rough ? 1.3 : 1) * wavenumber, own.eps * 1e-2};
             const double error = attempt(own, finer, asked);

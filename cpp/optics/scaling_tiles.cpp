@@ -112,9 +112,13 @@ template <class T> WFPSF_VECTORISED void convert(const double *from, int64_t cou
 // their middle on the axis.
 class ScaledTiles::Sized {
   public:
-    Sized(const Colour &colour, size_t terms, int64_t from, int64_t to,
+    // Within `half` samples of the axis.
+    Sized(const Colour &colour, size_t terms, int64_t from, int64_t to, double half,
           std::span<const Filter> filters)
-        : colour_(&colour), from_(from), to_(to), filters_(filters) {
+        : colour_(&colour), from_(from), to_(to),
+          first_(
+              std::max<int64_t>(static_cast<int64_t>(static_cast<double>(to - 1) / 2 - half), 0)),
+          filters_(filters) {
         of<double>().along.resize(filters.size());
         of<float>().along.resize(filters.size());
         double below = colour.x, here = 1;
@@ -172,7 +176,7 @@ class ScaledTiles::Sized {
             std::transform(begin, end, &along.weights[static_cast<size_t>(sample * taps)],
                            [](double weight) { return static_cast<T>(weight); });
         };
-        for (int64_t i = 0; i <= to_ / 2; ++i) {
+        for (int64_t i = first_; i <= to_ / 2; ++i) {
             const int64_t at = interpolator.weights(position(i), w.data());
             put(i, at, w.begin(), w.end());
             put(to_ - 1 - i, from_ - at - taps, w.rbegin(), w.rend());
@@ -180,7 +184,7 @@ class ScaledTiles::Sized {
     }
 
     const Colour *colour_;
-    int64_t from_, to_;
+    int64_t from_, to_, first_;
     std::span<const Filter> filters_;
     template <class T> struct InPrecision {
         std::vector<T> chebyshev;
@@ -309,7 +313,7 @@ void ScaledTiles::add(std::span<const Colour> colours, double half, double beyon
                       std::span<Plane<double>> sums) {
     std::vector<Sized> sized;
     for (const Colour &colour : colours)
-        sized.emplace_back(colour, terms_.size(), terms_[0].nx(), size_, economy_.filters);
+        sized.emplace_back(colour, terms_.size(), terms_[0].nx(), size_, half, economy_.filters);
     const double middle = static_cast<double>(size_ - 1) / 2;
     const auto farthest = [middle](int64_t first, int64_t last) {
         return std::max(std::abs(static_cast<double>(first) - middle),
