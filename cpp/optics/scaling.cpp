@@ -21,7 +21,7 @@ constexpr double share_of_terms = 0.3, share_of_filters = 0.5, share_left_out = 
 
 // Filters for places that have so much less light each. One that errs by some part of all
 // frequencies' light may err by more of the largest sample around.
-constexpr double fainter = 1.0 / 8, safety = 2;
+constexpr double fainter = 1.0 / 16, safety = 2;
 constexpr double single_rounding = 4e-7; // of sums in single precision, of the largest sample
 
 // Images at Chebyshev's points become the polynomial's terms.
