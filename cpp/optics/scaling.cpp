@@ -119,7 +119,7 @@ std::vector<Plane<double>> Scaling::sums(std::vector<Plane<double>> images,
         const ColourSums &rule = rules[r];
         const double beyond = r + 1 < rules.size() ? rules[r + 1].half : 0;
         // A few colours at a time: their weights stay in the cache.
-        constexpr size_t together = 8;
+        constexpr size_t together = 16;
         for (size_t begin = 0; begin < rule.wavelengths.size(); begin += together) {
             progress.report(
                 (static_cast<double>(r) +
