@@ -66,8 +66,8 @@ int64_t memory(const ImageMaker &maker, const Scaling &scaling, size_t fields) {
 struct Shares {
     double of_images, of_scaling, of_rule, of_fewer;
     explicit Shares(bool many_colours)
-        : of_images(many_colours ? 0.35 : 1), of_scaling(many_colours ? 0.2 : 0),
-          of_rule(many_colours ? 0.3 : 0), of_fewer(many_colours ? 0.15 : 0) {}
+        : of_images(many_colours ? 0.3 : 1), of_scaling(many_colours ? 0.3 : 0),
+          of_rule(many_colours ? 0.25 : 0), of_fewer(many_colours ? 0.15 : 0) {}
 };
 
 // The images that those of all wavelengths are made of.
@@ -140,7 +140,7 @@ Brightness brightness_of(const Images &images, const ImageMaker &maker, double r
 }
 
 // Nearer to the axis an image changes less with colour: rules for ever smaller squares about it,
-// each of some of the wavelengths of one for as large a square or a larger one.
+// each with no more wavelengths than the one that they are made of, which is for them all.
 struct Rules {
     std::vector<ColourSums> of;
     double missed = 0; // of the one that they are made of, as in choose_wavelengths()
@@ -150,11 +150,15 @@ struct Rules {
         std::vector<Spectrum> spectra;
         for (const std::vector<double> &own : weights)
             spectra.push_back({{wavelengths.begin(), wavelengths.end()}, own});
+        // Of several lights one by itself may have weights that are negative, and no Gauss rule.
+        const bool all_positive = std::ranges::all_of(together(spectra).weight,
+                                                      [](double weight) { return weight >= 0; });
         constexpr double smaller = 0.75, smallest = 64; // samples
         constexpr double worthwhile = 0.8;              // of the wavelengths
         for (double half = maker.grid().half(); of.empty() || half >= smallest; half *= smaller) {
-            const auto [rule, own, error] = choose_wavelengths(
-                spectra, maker.path(std::numbers::sqrt2 * half), brightness, eps, worthwhile);
+            const auto [rule, own, error] =
+                choose_wavelengths(spectra, maker.path(std::numbers::sqrt2 * half), brightness, eps,
+                                   all_positive ? worthwhile : 0);
             if (of.empty() || static_cast<double>(rule.size()) <
                                   worthwhile * static_cast<double>(of.back().wavelengths.size()))
                 of.push_back({half, rule.wavelengths(), own});

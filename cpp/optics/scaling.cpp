@@ -16,7 +16,7 @@ constexpr double pi = std::numbers::pi;
 
 // How much of eps the polynomial gets, the interpolation, and what is left out where light is
 // faint: terms, and digits.
-constexpr double share_of_terms = 0.3, share_of_filters = 0.5, share_left_out = 0.15,
+constexpr double share_of_terms = 0.45, share_of_filters = 0.35, share_left_out = 0.15,
                  share_of_digits = 0.05;
 
 // Filters for places that have so much less light each. One that errs by some part of all
@@ -117,7 +117,7 @@ std::vector<Plane<double>> Scaling::sums(std::vector<Plane<double>> images,
     ScaledTiles tiles(std::move(images), size, economy_);
     for (size_t r = 0; r < rules.size(); ++r) {
         const ColourSums &rule = rules[r];
-        const double beyond = r + 1 < rules.size() ? rules[r + 1].half : 0;
+        const double beyond = r + 1 < rules.size() ? rules[r + 1].half : -1;
         // A few colours at a time: their weights stay in the cache.
         constexpr size_t together = 16;
         for (size_t begin = 0; begin < rule.wavelengths.size(); begin += together) {

@@ -39,7 +39,7 @@ template <int64_t n, class T, class Input>
     std::memcpy(sums, registers, sizeof(registers));
 }
 
-// The same for `count` sums at least, and no more than fill a line of the cache.
+// The same for `count` sums, or up to a line of the cache more.
 constexpr int64_t long_run = 8, short_run = 2; // vectors at a time
 template <class T> constexpr int64_t line = short_run *Vector<T>::lanes;
 template <class T, class Input>
@@ -100,7 +100,6 @@ WFPSF_VECTORISED void turn(const T *rows, int64_t length, int64_t count, T *colu
             columns[x * tile + i] = rows[i * length + x];
 }
 
-// The first numbers of each row.
 template <class T> WFPSF_VECTORISED void convert(const double *from, int64_t count, T *to) {
     for (int64_t i = 0; i < count; ++i)
         to[i] = static_cast<T>(from[i]);
