@@ -154,7 +154,7 @@ struct Rules {
         const bool all_positive = std::ranges::all_of(together(spectra).weight,
                                                       [](double weight) { return weight >= 0; });
         constexpr double smaller = 0.75, smallest = 64; // samples
-        constexpr double worthwhile = 0.8;              // of the wavelengths
+        constexpr double worthwhile = 0.9;              // of the wavelengths
         for (double half = maker.grid().half(); of.empty() || half >= smallest; half *= smaller) {
             const auto [rule, own, error] =
                 choose_wavelengths(spectra, maker.path(std::numbers::sqrt2 * half), brightness, eps,
