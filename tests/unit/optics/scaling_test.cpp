@@ -205,7 +205,7 @@ TEST(Scaling, WideFieldsMeetTheSumOfTheirColours) {
             for (int64_t x = 0; x < width; ++x)
                 truth(x, y) += spectrum.weight[i] * stamp(x, y);
     }
-    const Light light = [spectrum](double) { return spectrum; };
+    const Light light = [&spectrum](double) { return spectrum; };
     for (const double eps : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
         of.eps = eps;
         const Psf psf = std::move(make_psfs(optics, {&light, 1}, of)[0]);
