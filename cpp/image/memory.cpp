@@ -5,6 +5,10 @@
 #include <bit>
 #include <vector>
 
+#ifdef __linux__
+#include <sys/mman.h>
+#endif
+
 namespace wfpsf {
 
 namespace {
@@ -16,8 +20,26 @@ struct Header {
     size_t capacity;
 };
 
+// Where there are huge pages, a large block is asked for in such: small ones cost more to touch for
+// the first time than most sums.
+constexpr size_t huge_page = size_t{1} << 21;
+std::align_val_t alignment_of(size_t capacity) {
+    return std::align_val_t(capacity >= 2 * huge_page ? huge_page : cache_line);
+}
+
+Header *acquire(size_t capacity) {
+    void *const memory = ::operator new(capacity + cache_line, alignment_of(capacity));
+#ifdef __linux__
+    if (alignment_of(capacity) == std::align_val_t(huge_page))
+        (void)madvise(memory, capacity + cache_line, MADV_HUGEPAGE); // a wish: it may be refused
+#endif
+    auto *const block = static_cast<Header *>(memory);
+    block->capacity = capacity;
+    return block;
+}
+
 void release(Header *block) {
-    ::operator delete(block, std::align_val_t(cache_line));
+    ::operator delete(block, alignment_of(block->capacity));
 }
 
 struct Kept {
@@ -28,7 +50,7 @@ struct Kept {
         std::ranges::for_each(blocks, release);
         blocks.clear();
     }
-    // The smallest block that will do; nullptr if none will, and then they make way.
+    // The smallest block that will do; nullptr if none will, and then as many of them make way.
     Header *take(size_t bytes) {
         auto best = blocks.end();
         for (auto block = blocks.begin(); block != blocks.end(); ++block)
@@ -36,7 +58,13 @@ struct Kept {
                 (best == blocks.end() || (*block)->capacity < (*best)->capacity))
                 best = block;
         if (best == blocks.end()) {
-            clear();
+            size_t freed = 0;
+            auto oldest = blocks.begin();
+            for (; oldest != blocks.end() && freed < bytes; ++oldest) {
+                freed += (*oldest)->capacity;
+                release(*oldest);
+            }
+            blocks.erase(blocks.begin(), oldest);
             return nullptr;
         }
         Header *const found = *best;
@@ -70,12 +98,8 @@ KeptMemory::~KeptMemory() {
 void *take_memory(size_t bytes) {
     const bool keep = bytes >= large && kept().holders > 0;
     Header *block = keep ? kept().take(bytes) : nullptr;
-    if (!block) {
-        const size_t capacity = keep ? rounded(bytes) : bytes;
-        block = static_cast<Header *>(
-            ::operator new(capacity + cache_line, std::align_val_t(cache_line)));
-        block->capacity = capacity;
-    }
+    if (!block)
+        block = acquire(keep ? rounded(bytes) : bytes);
     return reinterpret_cast<std::byte *>(block) + cache_line;
 }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <utility>
 
@@ -20,11 +21,15 @@ constexpr double pi = std::numbers::pi;
 using Complex = std::complex<double>;
 
 constexpr int narrowest = 4, widest = 16; // kernel widths, fine grid cells
-constexpr int64_t batch = 16;             // columns transformed together
+constexpr int64_t batch = 16;             // columns or rows transformed together
 
-// Cells of the fine grid to a mode. At 1.5 the time would be much the same, with wider kernels, but
-// rounding would be multiplied by 10^5 where the kernel's transform is smallest.
-constexpr double oversampling = 2;
+// Cells of the fine grid to a mode. Fewer make shorter transforms and wider kernels; but rounding is
+// multiplied by up to 10^5 where such a kernel's transform is smallest.
+constexpr double fine = 2, coarse = 1.5;
+double oversampling_for(double eps) {
+    constexpr double least_of_coarse = 1e-9;
+    return eps < least_of_coarse ? fine : coarse;
+}
 
 // The spreading kernel exp(beta (sqrt(1 - z^2) - 1)), |z| < 1, over `width` cells.
 double kernel(double beta, double z) {
@@ -35,16 +40,17 @@ double kernel(double beta, double z) {
 // them by far less.
 int width_for(double eps) {
     const double digits = -std::log10(std::max(eps, nufft_best_eps));
-    const double digits_per_cell = pi * std::numbers::log10e * std::sqrt(1 - 1 / oversampling);
+    const double digits_per_cell =
+        pi * std::numbers::log10e * std::sqrt(1 - 1 / oversampling_for(eps));
     return std::clamp(static_cast<int>(std::ceil(digits / digits_per_cell + 1.5)), narrowest,
                       widest);
 }
 
-double beta_for(int width) {
+double beta_for(int width, double oversampling) {
     return 0.97 * pi * (1 - 1 / (2 * oversampling)) * width;
 }
 
-int64_t fine_cells(int64_t K, int width) {
+int64_t fine_cells(int64_t K, int width, double oversampling) {
     const double modes = static_cast<double>(2 * K + 1);
     return good_fft_length(
         std::max(static_cast<int64_t>(std::ceil(oversampling * modes)), int64_t{2} * width));
@@ -59,9 +65,9 @@ WFPSF_VECTORISED void add_wave(double weight, double turns, std::vector<double> 
 }
 
 // One over the transform of the kernel at modes 0..K of a fine grid of n cells.
-std::vector<double> kernel_correction(int width, int64_t K, int64_t n) {
+std::vector<double> kernel_correction(int width, double beta, int64_t K, int64_t n) {
     const GaussLegendre rule(2 * width + 12);
-    const double beta = beta_for(width), half = width / 2.0;
+    const double half = width / 2.0;
     std::vector<double> modes(static_cast<size_t>(K + 1));
     for (size_t i = 0; i < rule.x.size(); ++i)
         add_wave(rule.w[i] * half * kernel(beta, rule.x[i]),
@@ -75,9 +81,8 @@ std::vector<double> kernel_correction(int width, int64_t K, int64_t n) {
 // within its cell: coefficients fitted through Chebyshev's points.
 template <int W> class KernelPolynomials {
   public:
-    KernelPolynomials() {
+    explicit KernelPolynomials(double beta) {
         constexpr int n = degree + 1;
-        const double beta = beta_for(W);
         for (int cell = 0; cell < W; ++cell) {
             std::array<double, n> chebyshev{};
             for (int i = 0; i < n; ++i) {
@@ -141,28 +146,96 @@ template <int W> struct Place {
     }
 };
 
-// Adds sources to the cells around them; (first_x, first_y) is the cell that stands at `cells`.
-template <int W>
-WFPSF_VECTORISED void spread_sources(std::span<const double> a, std::span<const double> b,
-                                     std::span<const Complex> c, double cells_per_radian,
-                                     int64_t first_x, int64_t first_y, int64_t stride,
-                                     Complex *cells) {
-    static const KernelPolynomials<W> polynomials;
-    constexpr size_t padded = KernelPolynomials<W>::padded;
-    for (size_t i = 0; i < c.size(); ++i) {
-        const Place<W> x(a[i], cells_per_radian), y(b[i], cells_per_radian);
-        double along_x[padded], along_y[padded], row[2 * padded];
-        polynomials.evaluate(x.offset, along_x);
-        polynomials.evaluate(y.offset, along_y);
-        for (size_t k = 0; k < padded; ++k) {
-            row[2 * k] = along_x[k] * c[i].real();
-            row[2 * k + 1] = along_x[k] * c[i].imag();
+// Four numbers, by name: what the compiler makes of loops over so few is slower.
+using Four [[gnu::vector_size(32)]] = double;
+[[gnu::always_inline]] inline void add_to(double *sums, const Four &numbers) {
+    Four sum;
+    std::memcpy(&sum, sums, sizeof(sum));
+    sum += numbers;
+    std::memcpy(sums, &sum, sizeof(sum));
+}
+
+// The weights around a source along one axis.
+template <int W> struct AlongAxis {
+    static constexpr size_t padded = KernelPolynomials<W>::padded;
+    alignas(32) double weights[padded];
+
+    [[gnu::always_inline]] AlongAxis(const KernelPolynomials<W> &polynomials, double offset) {
+        polynomials.evaluate(offset, weights);
+    }
+    // Adds a number times the weights.
+    [[gnu::always_inline]] void add(double number, double *sums) const {
+        for (size_t k = 0; k < padded; k += 4) {
+            Four four;
+            std::memcpy(&four, weights + k, sizeof(four));
+            add_to(sums + k, number * four);
         }
-        auto *sums =
-            reinterpret_cast<double *>(cells + (y.cell - first_y) * stride + x.cell - first_x);
-        for (size_t j = 0; j < W; ++j, sums += 2 * stride)
-            for (size_t k = 0; k < 2 * padded; ++k)
-                sums[k] += along_y[j] * row[k];
+    }
+    // The same of a complex number.
+    [[gnu::always_inline]] void add(double re, double im, double *sums) const {
+        const Four number{re, im, re, im};
+        for (size_t k = 0; k < padded; k += 2)
+            add_to(sums + 2 * k,
+                   number * Four{weights[k], weights[k], weights[k + 1], weights[k + 1]});
+    }
+};
+
+// Adds sources to the cells around them, in each of several planes of cells: (first_x, first_y) is
+// the cell that stands at the beginning of a plane, and a plane's sources follow another's. Sources
+// one above the other are added to a column first, all along y, and that to the cells.
+template <int W>
+WFPSF_VECTORISED void spread_sources(double oversampling, std::span<const double> a,
+                                     std::span<const double> b, std::span<const Complex> c,
+                                     double cells_per_radian, int64_t first_x, int64_t first_y,
+                                     int64_t stride, std::span<Complex *const> planes) {
+    static const KernelPolynomials<W> of_fine(beta_for(W, fine)), of_coarse(beta_for(W, coarse));
+    const KernelPolynomials<W> &polynomials = oversampling == fine ? of_fine : of_coarse;
+    std::vector<double> column;
+    for (size_t begin = 0, end = 0; begin < a.size(); begin = end) {
+        int64_t low = Place<W>(b[begin], cells_per_radian).cell, high = low;
+        for (end = begin + 1; end < a.size() && a[end] == a[begin]; ++end) {
+            const int64_t cell = Place<W>(b[end], cells_per_radian).cell;
+            low = std::min(low, cell);
+            high = std::max(high, cell);
+        }
+        const Place<W> x(a[begin], cells_per_radian);
+        const AlongAxis<W> along_x(polynomials, x.offset);
+        constexpr size_t few = 4;
+        if (end - begin < few) {
+            for (size_t i = begin; i < end; ++i) {
+                const Place<W> y(b[i], cells_per_radian);
+                const AlongAxis<W> along_y(polynomials, y.offset);
+                const int64_t at = (y.cell - first_y) * stride + x.cell - first_x;
+                for (size_t plane = 0; plane < planes.size(); ++plane) {
+                    const Complex source = c[plane * a.size() + i];
+                    Complex *cells = planes[plane] + at;
+                    for (size_t j = 0; j < W; ++j, cells += stride)
+                        along_x.add(along_y.weights[j] * source.real(),
+                                    along_y.weights[j] * source.imag(),
+                                    reinterpret_cast<double *>(cells));
+                }
+            }
+            continue;
+        }
+        const size_t used = static_cast<size_t>(high - low) + AlongAxis<W>::padded;
+        column.assign(2 * used * planes.size(), 0);
+        for (size_t i = begin; i < end; ++i) {
+            const Place<W> y(b[i], cells_per_radian);
+            const AlongAxis<W> along_y(polynomials, y.offset);
+            double *re = &column[static_cast<size_t>(y.cell - low)];
+            for (size_t plane = 0; plane < planes.size(); ++plane, re += 2 * used) {
+                const Complex source = c[plane * a.size() + i];
+                along_y.add(source.real(), re);
+                along_y.add(source.imag(), re + used);
+            }
+        }
+        const double *re = column.data();
+        for (Complex *const plane : planes) {
+            Complex *cells = plane + (low - first_y) * stride + x.cell - first_x;
+            for (size_t j = 0; j <= static_cast<size_t>(high - low) + W - 1; ++j, cells += stride)
+                along_x.add(re[j], re[j + used], reinterpret_cast<double *>(cells));
+            re += 2 * used;
+        }
     }
 }
 
@@ -201,28 +274,34 @@ Type1Transform::Axis::Axis(Band band, int64_t cells, int width) : n(cells) {
     used = cell(band.high) + width + 2 - first;
 }
 
-Type1Transform::Type1Transform(Band a, Band b, int64_t K, double eps)
-    : K_(K), width_(width_for(eps)), x_(a, fine_cells(K, width_), width_), y_(b, x_.n, width_),
-      correction_(kernel_correction(width_, K, x_.n)),
+Type1Transform::Type1Transform(Band a, Band b, int64_t K, double eps, size_t count)
+    : K_(K), oversampling_(oversampling_for(eps)), width_(width_for(eps)),
+      x_(a, fine_cells(K, width_, oversampling_), width_), y_(b, x_.n, width_),
+      correction_(kernel_correction(width_, beta_for(width_, oversampling_), K, x_.n)),
       stride_((x_.used + batch - 1) / batch * batch),
-      cells_(static_cast<size_t>(stride_ * y_.used + batch), Complex(0)) {}
+      cells_(count, Cells(static_cast<size_t>(stride_ * y_.used + batch), Complex(0))) {}
 
 Type1Transform::Memory Type1Transform::memory(Band a, Band b, int64_t K, double eps) {
     const int width = width_for(eps);
-    const Axis x(a, fine_cells(K, width), width), y(b, x.n, width);
+    const Axis x(a, fine_cells(K, width, oversampling_for(eps)), width), y(b, x.n, width);
     const auto size = static_cast<int64_t>(sizeof(Complex));
-    // Beside the cells, the columns that are transformed together.
-    return {size * ((x.used + batch) * (y.used + 1) + x.n * (batch + 1)), size * (x.used + batch)};
+    // Beside the cells, the columns or rows that are transformed together.
+    return {size * ((x.used + batch) * (y.used + 1) + 2 * x.n * (batch + 1)),
+            size * (x.used + batch)};
 }
 
 void Type1Transform::add(std::span<const double> a, std::span<const double> b,
                          std::span<const Complex> c) {
-    spread_width(width_, a, b, c, static_cast<double>(x_.n) / (2 * pi), x_.first, y_.first, stride_,
-                 cells_.data());
+    std::vector<Complex *> planes;
+    for (Cells &cells : cells_)
+        planes.push_back(cells.data());
+    spread_width(width_, oversampling_, a, b, c, static_cast<double>(x_.n) / (2 * pi), x_.first,
+                 y_.first, stride_, std::span<Complex *const>(planes));
 }
 
 // Modes first..last along y of every column of cells, divided by the kernel's transform.
-Type1Transform::Cells Type1Transform::transform_columns(int64_t first, int64_t last) const {
+Type1Transform::Cells Type1Transform::transform_columns(const Cells &cells, int64_t first,
+                                                        int64_t last) const {
     const int64_t n = y_.n;
     const BackwardFft fft(n, batch);
     Cells half(static_cast<size_t>((last - first + 1) * stride_));
@@ -231,7 +310,7 @@ Type1Transform::Cells Type1Transform::transform_columns(int64_t first, int64_t l
         std::fill(period.begin(), period.end(), Complex(0));
         in_period(y_.first, y_.used, n, [&](int64_t cell, int64_t at, int64_t length) {
             for (int64_t y = 0; y < length; ++y)
-                add_cells(&cells_[static_cast<size_t>((cell + y) * stride_ + x)], batch,
+                add_cells(&cells[static_cast<size_t>((cell + y) * stride_ + x)], batch,
                           &period[static_cast<size_t>((at + y) * batch)]);
         });
         fft.run(period.data());
@@ -248,25 +327,33 @@ Type1Transform::Cells Type1Transform::transform_columns(int64_t first, int64_t l
     return half;
 }
 
-void Type1Transform::rows(int64_t first, int64_t last, const RowSink &row) const {
-    const Cells half = transform_columns(first, last);
-    const int64_t n = x_.n;
-    const BackwardFft fft(n);
-    std::vector<Complex> period(static_cast<size_t>(n)), modes(static_cast<size_t>(2 * K_ + 1));
-    for (int64_t jy = first; jy <= last; ++jy) {
-        const Complex *cells = &half[static_cast<size_t>((jy - first) * stride_)];
+void Type1Transform::rows(int64_t first, int64_t last, const RowSink &row, size_t which) const {
+    const Cells half = transform_columns(cells_[which], first, last);
+    const int64_t n = x_.n, length = 2 * K_ + 1;
+    const BackwardFft fft(n, batch);
+    Cells period(static_cast<size_t>(n * batch)), modes(static_cast<size_t>(length * batch));
+    for (int64_t begin = first; begin <= last; begin += batch) {
+        const int64_t count = std::min(batch, last + 1 - begin);
         std::fill(period.begin(), period.end(), Complex(0));
-        in_period(x_.first, x_.used, n, [&](int64_t cell, int64_t at, int64_t length) {
-            add_cells(cells + cell, length, &period[static_cast<size_t>(at)]);
-        });
+        for (int64_t j = 0; j < count; ++j) {
+            const Complex *cells = &half[static_cast<size_t>((begin + j - first) * stride_)];
+            in_period(x_.first, x_.used, n, [&](int64_t cell, int64_t at, int64_t run) {
+                for (int64_t i = 0; i < run; ++i)
+                    period[static_cast<size_t>((at + i) * batch + j)] += cells[cell + i];
+            });
+        }
         fft.run(period.data());
-        in_period(-K_, 2 * K_ + 1, n, [&](int64_t mode, int64_t at, int64_t length) {
-            for (int64_t i = 0; i < length; ++i)
-                modes[static_cast<size_t>(mode + i)] =
-                    correction_[static_cast<size_t>(std::abs(mode + i - K_))] *
-                    period[static_cast<size_t>(at + i)];
+        in_period(-K_, length, n, [&](int64_t mode, int64_t at, int64_t run) {
+            for (int64_t i = 0; i < run; ++i) {
+                const double factor = correction_[static_cast<size_t>(std::abs(mode + i - K_))];
+                const Complex *from = &period[static_cast<size_t>((at + i) * batch)];
+                for (int64_t j = 0; j < count; ++j)
+                    modes[static_cast<size_t>(j * length + mode + i)] = factor * from[j];
+            }
         });
-        row(jy, modes);
+        for (int64_t j = 0; j < count; ++j)
+            row(begin + j, std::span(modes).subspan(static_cast<size_t>(j * length),
+                                                    static_cast<size_t>(length)));
     }
 }
 

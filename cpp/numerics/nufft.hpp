@@ -27,22 +27,25 @@ class Type1Transform {
         double low, high;
     };
 
-    Type1Transform(Band a, Band b, int64_t K, double eps);
+    // So many of them at once, of the same places and with sources of their own.
+    Type1Transform(Band a, Band b, int64_t K, double eps, size_t count = 1);
 
-    // What a transform of these arguments holds, and what rows() takes besides for each row.
+    // What one transform of these arguments holds, and what rows() takes besides for each row.
     struct Memory {
         int64_t held, per_row; // bytes
     };
     static Memory memory(Band a, Band b, int64_t K, double eps);
 
-    // Every source must lie within the bands.
+    // Every source must lie within the bands. The sources of one transform follow another's.
     void add(std::span<const double> a, std::span<const double> b,
              std::span<const std::complex<double>> c);
 
     // Calls row(jy, modes -K..K along x) for jy = first..last in this order. Every call transforms
     // all of the band along y anew.
     using RowSink = std::function<void(int64_t jy, std::span<const std::complex<double>> modes)>;
-    void rows(int64_t first, int64_t last, const RowSink &row) const;
+    void rows(int64_t first, int64_t last, const RowSink &row, size_t which = 0) const;
+    // Gives its memory back.
+    void release(size_t which) { cells_[which] = {}; }
 
   private:
     using Cells = std::vector<std::complex<double>, AlignedAllocator<std::complex<double>>>;
@@ -53,14 +56,15 @@ class Type1Transform {
         int64_t first, used; // cells that the sources may touch
         Axis(Band band, int64_t cells, int width);
     };
-    Cells transform_columns(int64_t first, int64_t last) const;
+    Cells transform_columns(const Cells &cells, int64_t first, int64_t last) const;
 
     int64_t K_;
-    int width_; // of the spreading kernel, fine grid cells
+    double oversampling_; // cells of the fine grid to a mode
+    int width_;           // of the spreading kernel, fine grid cells
     Axis x_, y_;
     std::vector<double> correction_; // one over the kernel's transform at modes 0..K
     int64_t stride_;                 // of a row of cells
-    Cells cells_;
+    std::vector<Cells> cells_;       // of each transform
 };
 
 } // namespace wfpsf

@@ -63,6 +63,17 @@ class Aperture {
     // |A|^2 good to about `eps` of area^2, the peak of the unaberrated PSF.
     virtual Diffraction diffract(const Wavefront &wavefront, double wavelength,
                                  const FocalGrid &grid, double eps) const = 0;
+    // The same for several wavelengths, by the factors that they are `wavelength` divided by: then
+    // the grid's step is divided, too, and the wavefront's waves are multiplied.
+    virtual std::vector<Diffraction> diffract_all(const Wavefront &wavefront, double wavelength,
+                                                  std::span<const double> factors,
+                                                  const FocalGrid &grid, double eps) const {
+        std::vector<Diffraction> all;
+        for (const double factor : factors)
+            all.push_back(diffract(wavefront.scaled(factor), wavelength / factor,
+                                   {grid.size, grid.step / factor}, eps));
+        return all;
+    }
     virtual std::unique_ptr<const DiffractionStrips> diffract_in_strips(const Wavefront &wavefront,
                                                                         double wavelength,
                                                                         const FocalGrid &grid,

@@ -86,7 +86,7 @@ Brightness usual_brightness(double wavelength) {
 }
 
 ColourChoice choose_wavelengths(std::span<const Spectrum> spectra, double longest_path,
-                                const Brightness &brightness, double eps) {
+                                const Brightness &brightness, double eps, double largest_share) {
     const Spectrum all = together(spectra);
     const auto [blue, red] = std::ranges::minmax(all.wavelength);
     const Paths paths(blue, red, longest_path);
@@ -96,7 +96,7 @@ ColourChoice choose_wavelengths(std::span<const Spectrum> spectra, double longes
         add(spectrum.wavelength, spectrum.weight, paths, fringes.back());
     }
     for (size_t n = usual_size(flat_range(all), longest_path, brightness, eps);; n += 1 + n / 16) {
-        ColourChoice choice{WavelengthRule(all, n), {}, 0};
+        ColourChoice choice{WavelengthRule(all, n, largest_share), {}, 0};
         for (size_t s = 0; s < spectra.size() && choice.error <= eps; ++s) {
             choice.weights.push_back(choice.rule.weights(spectra[s]));
             if (!choice.rule.exact())

@@ -26,6 +26,7 @@ struct ColourChoice {
     double error;
 };
 ColourChoice choose_wavelengths(std::span<const Spectrum> spectra, double longest_path,
-                                const Brightness &brightness, double eps);
+                                const Brightness &brightness, double eps,
+                                double largest_share = WavelengthRule::usual_share);
 
 } // namespace wfpsf

@@ -64,10 +64,10 @@ int64_t memory(const ImageMaker &maker, const Scaling &scaling, size_t fields) {
 
 // What errors come from, in shares of a tolerance.
 struct Shares {
-    double of_images, of_scaling, of_rule;
+    double of_images, of_scaling, of_rule, of_fewer;
     explicit Shares(bool many_colours)
-        : of_images(many_colours ? 0.35 : 1), of_scaling(many_colours ? 0.15 : 0),
-          of_rule(many_colours ? 0.5 : 0) {}
+        : of_images(many_colours ? 0.3 : 1), of_scaling(many_colours ? 0.3 : 0),
+          of_rule(many_colours ? 0.25 : 0), of_fewer(many_colours ? 0.15 : 0) {}
 };
 
 // The images that those of all wavelengths are made of.
@@ -78,9 +78,8 @@ struct Images {
 
     Images(const ImageMaker &maker, const Scaling &scaling, const Progress &progress) {
         const std::vector<double> &wavelengths = scaling.wavelengths();
-        for (size_t j = 0; j < wavelengths.size(); ++j) {
-            progress.report(static_cast<double>(j) / static_cast<double>(wavelengths.size()));
-            Diffraction image = maker.diffract(wavelengths[j], scaling.grid(wavelengths[j]));
+        progress.report(0);
+        for (Diffraction &image : maker.diffract(wavelengths, scaling.grid(wavelengths[0]))) {
             intensity.push_back(std::move(image.intensity));
             error.push_back(image.error);
             model_error.push_back(image.model_error);
@@ -103,8 +102,9 @@ class Profile {
                     const int64_t end = std::min(x + run, image.nx());
                     const double farther = std::max(std::abs(static_cast<double>(x) - half),
                                                     std::abs(static_cast<double>(end - 1) - half));
-                    double &most = brightest_[static_cast<size_t>(
-                        std::hypot(farther, static_cast<double>(y) - half))];
+                    const double off = static_cast<double>(y) - half;
+                    double &most =
+                        brightest_[static_cast<size_t>(std::sqrt(farther * farther + off * off))];
                     most = std::max(most, *std::max_element(row + x, row + end));
                 }
             }
@@ -133,17 +133,50 @@ class Profile {
     std::vector<double> brightest_; // from so many samples on
 };
 
-// The sums over the rule's wavelengths, one a row of weights.
-std::vector<Field> fields_of(const ImageMaker &maker, const Scaling &scaling, const Images &images,
-                             std::span<const double> wavelengths,
-                             std::span<const std::vector<double>> weights,
-                             const Progress &progress) {
-    std::vector<std::vector<double>> scaled(weights.begin(), weights.end());
-    for (std::vector<double> &own : scaled)
-        for (size_t k = 0; k < own.size(); ++k)
-            own[k] *= maker.scale(wavelengths[k]);
+// By the optical path difference there, in units of the unaberrated peak of the bluest light.
+Brightness brightness_of(const Images &images, const ImageMaker &maker, double range) {
+    return [profile = Profile(images.intensity, maker.optics().aperture->area()), &maker,
+            range](double path) { return profile.in_any_colour(maker.distance(path), range); };
+}
+
+// Nearer to the axis an image changes less with colour: rules for ever smaller squares about it,
+// each with no more wavelengths than the one that they are made of, which is for them all.
+struct Rules {
+    std::vector<ColourSums> of;
+    double missed = 0; // of the one that they are made of, as in choose_wavelengths()
+
+    Rules(const ImageMaker &maker, std::span<const double> wavelengths,
+          std::span<const std::vector<double>> weights, const Brightness &brightness, double eps) {
+        std::vector<Spectrum> spectra;
+        for (const std::vector<double> &own : weights)
+            spectra.push_back({{wavelengths.begin(), wavelengths.end()}, own});
+        // Of several lights one by itself may have weights that are negative, and no Gauss rule.
+        const bool all_positive = std::ranges::all_of(together(spectra).weight,
+                                                      [](double weight) { return weight >= 0; });
+        constexpr double smaller = 0.75, smallest = 64; // samples
+        constexpr double worthwhile = 0.9;              // of the wavelengths
+        for (double half = maker.grid().half(); of.empty() || half >= smallest; half *= smaller) {
+            const auto [rule, own, error] =
+                choose_wavelengths(spectra, maker.path(std::numbers::sqrt2 * half), brightness, eps,
+                                   all_positive ? worthwhile : 0);
+            if (of.empty() || static_cast<double>(rule.size()) <
+                                  worthwhile * static_cast<double>(of.back().wavelengths.size()))
+                of.push_back({half, rule.wavelengths(), own});
+            missed = std::max(missed, error);
+        }
+    }
+};
+
+// The sums over the rules' wavelengths, one a row of weights.
+std::vector<Field> fields_of(const ImageMaker &maker, const Scaling &scaling, Images images,
+                             const Rules &rules, const Progress &progress) {
+    std::vector<ColourSums> scaled = rules.of;
+    for (ColourSums &rule : scaled)
+        for (std::vector<double> &own : rule.weights)
+            for (size_t k = 0; k < own.size(); ++k)
+                own[k] *= maker.scale(rule.wavelengths[k]);
     std::vector<Field> fields;
-    for (Plane<double> &sum : scaling.sums(images.intensity, wavelengths, scaled, progress)) {
+    for (Plane<double> &sum : scaling.sums(std::move(images.intensity), scaled, progress)) {
         Field &field = fields.emplace_back(maker.interpolator());
         field.per_pixel = maker.per_pixel();
         field.grid_size = maker.grid().size;
@@ -151,8 +184,10 @@ std::vector<Field> fields_of(const ImageMaker &maker, const Scaling &scaling, co
         field.value = maker.averaged(std::exchange(sum, {}));
         field.find_peaks();
     }
-    for (size_t k = 0; k < wavelengths.size(); ++k) {
-        const std::vector<double> shares = scaling.shares(wavelengths[k]);
+    const ColourSums &outermost = rules.of[0];
+    for (size_t k = 0; k < outermost.wavelengths.size(); ++k) {
+        const double wavelength = outermost.wavelengths[k];
+        const std::vector<double> shares = scaling.shares(wavelength);
         double error = scaling.error() + maker.filter_error(), model_error = 0;
         for (size_t j = 0; j < shares.size(); ++j) {
             error += std::abs(shares[j]) * images.error[j];
@@ -160,11 +195,12 @@ std::vector<Field> fields_of(const ImageMaker &maker, const Scaling &scaling, co
         }
         for (size_t s = 0; s < fields.size(); ++s) {
             Field &field = fields[s];
-            const double in_peaks = std::abs(weights[s][k]) *
-                                    maker.unaberrated_peak(wavelengths[k]) / field.faintest_peak;
+            const double weight = outermost.weights[s][k];
+            const double in_peaks =
+                std::abs(weight) * maker.unaberrated_peak(wavelength) / field.faintest_peak;
             field.error += in_peaks * error;
             field.model_error += in_peaks * std::abs(model_error);
-            field.colours.push_back({wavelengths[k], weights[s][k]});
+            field.colours.push_back({wavelength, weight});
         }
     }
     return fields;
@@ -217,22 +253,21 @@ std::vector<Field> make_fields(const Optics &optics, std::span<const Light> ligh
         const auto [bluest, reddest] = std::ranges::minmax(together(spectra).wavelength);
         const Scaling scaling(maker, bluest, reddest, shares.of_scaling * tolerance);
         manners.require_memory(memory(maker, scaling, lights.size()), "a field of that radius");
-        const Images images(maker, scaling, manners.progress.between(0, 0.6));
-        const Profile profile(images.intensity, optics.aperture->area());
+        Images images(maker, scaling, manners.progress.between(0, 0.6));
+        const Brightness brightness = brightness_of(images, maker, bluest / reddest);
         const auto [rule, weights, missed] = choose_wavelengths(
-            spectra, maker.longest_path(),
-            [&, range = bluest / reddest](double path) {
-                return profile.in_any_colour(maker.distance(path), range);
-            },
-            shares.of_rule * tolerance);
-        std::vector<Field> fields = fields_of(maker, scaling, images, rule.wavelengths(), weights,
-                                              manners.progress.between(0.6, 1));
+            spectra, maker.longest_path(), brightness, shares.of_rule * tolerance);
+        const Rules rules(maker, rule.wavelengths(), weights, brightness,
+                          shares.of_fewer * tolerance);
+        std::vector<Field> fields =
+            fields_of(maker, scaling, std::move(images), rules, manners.progress.between(0.6, 1));
         double error = 0;
         for (Field &field : fields) {
             field.shortest_wavelength = bluest;
             field.longest_wavelength = reddest;
             field.tolerance = tolerance;
-            field.error += missed * maker.unaberrated_peak(bluest) / field.faintest_peak;
+            field.error +=
+                (missed + rules.missed) * maker.unaberrated_peak(bluest) / field.faintest_peak;
             error = std::max(error, field.error);
         }
         if (error <= settings.eps || count == 4 || tolerance < 1e-15)
@@ -244,9 +279,14 @@ std::vector<Field> make_fields(const Optics &optics, std::span<const Light> ligh
 Field make_field_like(const Field &like, const Optics &optics, const PsfSettings &settings,
                       double radius) {
     const Remaking as(like, optics, settings, radius);
-    const Images images(as.maker, as.scaling, {});
-    Field field =
-        std::move(fields_of(as.maker, as.scaling, images, as.wavelengths, {&as.weights, 1}, {})[0]);
+    Images images(as.maker, as.scaling, {});
+    const Brightness brightness =
+        brightness_of(images, as.maker, like.shortest_wavelength / like.longest_wavelength);
+    const Rules rules(as.maker, as.wavelengths, {&as.weights, 1}, brightness,
+                      Remaking::shares(like).of_fewer * like.tolerance);
+    Field field = std::move(fields_of(as.maker, as.scaling, std::move(images), rules, {})[0]);
+    field.error +=
+        rules.missed * as.maker.unaberrated_peak(like.shortest_wavelength) / field.faintest_peak;
     field.shortest_wavelength = like.shortest_wavelength;
     field.longest_wavelength = like.longest_wavelength;
     field.tolerance = like.tolerance;
@@ -268,11 +308,11 @@ std::vector<Field> make_field_changes(const Field &like, const Optics &optics,
             changes[i].push_back(std::move(of_all[i]));
     }
     std::vector<Field> fields;
+    const ColourSums rule{as.maker.grid().half(), as.wavelengths, {weights}};
     for (std::vector<Plane<double>> &images : changes) {
         Field &field = fields.emplace_back(as.maker.interpolator());
         field.per_pixel = as.maker.per_pixel();
-        field.value = as.maker.averaged(
-            as.scaling.sums(std::exchange(images, {}), as.wavelengths, {&weights, 1})[0]);
+        field.value = as.maker.averaged(as.scaling.sums(std::exchange(images, {}), {&rule, 1})[0]);
     }
     return fields;
 }

@@ -80,8 +80,9 @@ std::vector<Field> make_fields(const Optics &optics, std::span<const Light> ligh
                                const PsfSettings &settings, double radius,
                                const Manners &manners = {});
 
-// The field of other optics behind the same aperture, on the grid, with the filters and of the
-// wavelengths of one that make_fields() gave for the same settings and radius.
+// The field of other optics behind the same aperture, on the grid and with the filters of one that
+// make_fields() gave for the same settings and as large a radius or a larger one: of its
+// wavelengths, or of fewer that are as good within the radius.
 Field make_field_like(const Field &like, const Optics &optics, const PsfSettings &settings,
                       double radius);
 

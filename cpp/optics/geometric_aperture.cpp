@@ -29,31 +29,41 @@ constexpr double rounding = 5e-14; // of A in units of the area: sums of 10^3 to
 constexpr double most_nodes = 1e6; // that a map's roughness may lead to, about
 using Complex = std::complex<double>;
 
-// exp(2 pi i turns) times a weight.
-WFPSF_VECTORISED void waves(std::span<const double> turns, const double *weight, double *re,
-                            double *im) {
+// exp(2 pi i factor turns) times a weight.
+WFPSF_VECTORISED void waves(std::span<const double> turns, double factor, const double *weight,
+                            double *re, double *im) {
     for (size_t n = 0; n < turns.size(); ++n) {
         double cosine, sine;
-        phasor(turns[n], cosine, sine);
+        phasor(factor * turns[n], cosine, sine);
         re[n] = weight[n] * cosine;
         im[n] = weight[n] * sine;
     }
 }
 
-// What a batch of nodes sends towards the focal plane: weight exp(2 pi i W).
+// What a batch of nodes sends towards the focal plane: weight exp(2 pi i factor W), by factor.
 struct Sources {
-    std::vector<double> waves, re, im;
+    std::vector<double> waves;
+    struct Wave {
+        std::vector<double> re, im;
+    };
+    std::vector<Wave> of;
 
-    void take(const PupilNodes &nodes, const Wavefront &wavefront) {
-        for (std::vector<double> *values : {&waves, &re, &im})
-            values->resize(nodes.size());
+    void take(const PupilNodes &nodes, const Wavefront &wavefront,
+              std::span<const double> factors) {
+        waves.resize(nodes.size());
         wavefront.evaluate(nodes.x, nodes.y, waves.data());
-        wfpsf::waves(waves, nodes.weight.data(), re.data(), im.data());
+        of.resize(factors.size());
+        for (size_t k = 0; k < factors.size(); ++k) {
+            of[k].re.resize(nodes.size());
+            of[k].im.resize(nodes.size());
+            wfpsf::waves(waves, factors[k], nodes.weight.data(), of[k].re.data(), of[k].im.data());
+        }
     }
 
-    // Times 2 pi i change.
+    // The first of them times 2 pi i change.
     void differentiate(const PupilNodes &nodes, const Wavefront &change) {
         change.evaluate(nodes.x, nodes.y, waves.data());
+        auto &[re, im] = of[0];
         for (size_t n = 0; n < nodes.size(); ++n) {
             const double phase = 2 * pi * waves[n];
             re[n] = -phase * std::exchange(im[n], phase * re[n]);
@@ -76,30 +86,34 @@ struct Bands {
           modes((grid.size - 1) / 2) {}
 };
 
-// The amplitude on a grid, by a nonuniform FFT: made of the nodes once, then asked for its rows. Or
-// its derivative, as a multiple of `change` is added to the wavefront.
+// The amplitude on a grid, by a nonuniform FFT: made of the nodes once, then asked for its rows. For
+// each factor by which the wavefront counts. Or its derivative, as a multiple of `change` is added
+// to the wavefront.
 class Transform {
   public:
     template <class Pupil>
-    Transform(const Pupil &pupil, const Wavefront &wavefront, double wavelength,
-              const FocalGrid &grid, const Quadrature &quadrature, double eps,
+    Transform(const Pupil &pupil, const Wavefront &wavefront, std::span<const double> factors,
+              double wavelength, const FocalGrid &grid, const Quadrature &quadrature, double eps,
               const Wavefront *change = nullptr)
-        : bands_(bounds(pupil), wavelength, grid), nufft_(bands_.x, bands_.y, bands_.modes, eps) {
+        : bands_(bounds(pupil), wavelength, grid),
+          nufft_(bands_.x, bands_.y, bands_.modes, eps, factors.size()) {
         Sources sources;
         std::vector<double> a, b;
         std::vector<Complex> c;
         pupil_nodes(pupil, quadrature.wavenumber, quadrature.eps, [&](const PupilNodes &nodes) {
-            sources.take(nodes, wavefront);
+            sources.take(nodes, wavefront, factors);
             if (change)
                 sources.differentiate(nodes, *change);
             a.resize(nodes.size());
             b.resize(nodes.size());
-            c.resize(nodes.size());
+            c.clear();
             for (size_t n = 0; n < nodes.size(); ++n) {
                 a[n] = bands_.turn * nodes.x[n];
                 b[n] = bands_.turn * nodes.y[n];
-                c[n] = {sources.re[n], sources.im[n]};
             }
+            for (const Sources::Wave &wave : sources.of)
+                for (size_t n = 0; n < nodes.size(); ++n)
+                    c.emplace_back(wave.re[n], wave.im[n]);
             nufft_.add(a, b, c);
             nodes_ += static_cast<int64_t>(nodes.size());
         });
@@ -108,16 +122,25 @@ class Transform {
     int64_t nodes() const { return nodes_; }
 
     // |A|^2 in rows first..first+count-1 of the grid.
-    Plane<double> intensity(int64_t first, int64_t count) const {
+    Plane<double> intensity(int64_t first, int64_t count, size_t which = 0) const {
         auto out = Plane<double>::unset(2 * bands_.modes + 1, count);
         const int64_t origin = first - bands_.modes;
-        nufft_.rows(origin, origin + count - 1,
-                    [&](int64_t jy, std::span<const Complex> amplitude) {
-                        double *row = out.view().row(jy - origin);
-                        for (size_t x = 0; x < amplitude.size(); ++x)
-                            row[x] = std::norm(amplitude[x]);
-                    });
+        nufft_.rows(
+            origin, origin + count - 1,
+            [&](int64_t jy, std::span<const Complex> amplitude) {
+                double *row = out.view().row(jy - origin);
+                for (size_t x = 0; x < amplitude.size(); ++x)
+                    row[x] = std::norm(amplitude[x]);
+            },
+            which);
         return out;
+    }
+
+    // All of it, the last time that this one is asked for.
+    Plane<double> last_intensity(size_t which) {
+        Plane<double> all = intensity(0, 2 * bands_.modes + 1, which);
+        nufft_.release(which);
+        return all;
     }
 
     // The amplitude itself, on all of the grid.
@@ -153,6 +176,7 @@ class GeometricStrips final : public DiffractionStrips {
 // Grid indices on each axis at which an intensity is checked, all pairs of them: errors of the
 // quadrature grow outwards, those of the transform are largest where there is most light.
 constexpr size_t per_axis = 3;
+constexpr double once[] = {1}; // the factor of one wavelength alone
 
 std::array<int64_t, per_axis> probes(const FocalGrid &grid) {
     return {0, std::llround(grid.half()), std::llround(1.8 * grid.half())};
@@ -167,34 +191,42 @@ struct LaneSums {
 
 // Adds sources; the probes stand `turns` per metre of the pupil off the axis.
 WFPSF_VECTORISED void add_to_probes(const PupilNodes &nodes, const Sources &sources,
-                                    const std::array<double, per_axis> &turns, LaneSums &sums) {
+                                    const std::array<double, per_axis> &turns,
+                                    std::vector<LaneSums> &sums) {
     for (size_t first = 0; first < nodes.size(); first += lanes) {
         const size_t count = std::min(lanes, nodes.size() - first);
-        Lanes x{}, y{}, re{}, im{};
+        Lanes x{}, y{};
         for (size_t l = 0; l < count; ++l) {
             x[l] = nodes.x[first + l];
             y[l] = nodes.y[first + l];
-            re[l] = sources.re[first + l];
-            im[l] = sources.im[first + l];
         }
-        std::array<Lanes, per_axis> x_re, x_im;
+        std::array<Lanes, per_axis> x_re, x_im, y_re, y_im;
         for (size_t i = 0; i < per_axis; ++i)
-            for (size_t l = 0; l < lanes; ++l)
-                phasor(turns[i] * x[l], x_re[i][l], x_im[i][l]);
-        for (size_t j = 0; j < per_axis; ++j) {
-            Lanes y_re, y_im;
             for (size_t l = 0; l < lanes; ++l) {
-                double cosine, sine;
-                phasor(turns[j] * y[l], cosine, sine);
-                y_re[l] = re[l] * cosine - im[l] * sine;
-                y_im[l] = re[l] * sine + im[l] * cosine;
+                phasor(turns[i] * x[l], x_re[i][l], x_im[i][l]);
+                phasor(turns[i] * y[l], y_re[i][l], y_im[i][l]);
             }
-            for (size_t i = 0; i < per_axis; ++i)
+        for (size_t k = 0; k < sums.size(); ++k) {
+            Lanes re{}, im{};
+            for (size_t l = 0; l < count; ++l) {
+                re[l] = sources.of[k].re[first + l];
+                im[l] = sources.of[k].im[first + l];
+            }
+            for (size_t j = 0; j < per_axis; ++j) {
+                Lanes here_re, here_im;
                 for (size_t l = 0; l < lanes; ++l) {
-                    Lanes &sum_re = sums.re[j * per_axis + i], &sum_im = sums.im[j * per_axis + i];
-                    sum_re[l] += x_re[i][l] * y_re[l] - x_im[i][l] * y_im[l];
-                    sum_im[l] += x_re[i][l] * y_im[l] + x_im[i][l] * y_re[l];
+                    here_re[l] = re[l] * y_re[j][l] - im[l] * y_im[j][l];
+                    here_im[l] = re[l] * y_im[j][l] + im[l] * y_re[j][l];
                 }
+                for (size_t i = 0; i < per_axis; ++i) {
+                    Lanes &sum_re = sums[k].re[j * per_axis + i];
+                    Lanes &sum_im = sums[k].im[j * per_axis + i];
+                    for (size_t l = 0; l < lanes; ++l) {
+                        sum_re[l] += x_re[i][l] * here_re[l] - x_im[i][l] * here_im[l];
+                        sum_im[l] += x_re[i][l] * here_im[l] + x_im[i][l] * here_re[l];
+                    }
+                }
+            }
         }
     }
 }
@@ -220,17 +252,27 @@ template <class Pupil> class GeometricAperture final : public Aperture {
 
     Diffraction diffract(const Wavefront &wavefront, double wavelength, const FocalGrid &grid,
                          double eps) const override {
-        Diffraction out;
-        out.model_error = fit_error_;
-        refine(wavefront, wavelength, grid, eps,
+        return std::move(diffract_all(wavefront, wavelength, once, grid, eps)[0]);
+    }
+
+    // All by the same nodes, since a place on their grids is as many wavelengths off the axis.
+    std::vector<Diffraction> diffract_all(const Wavefront &wavefront, double wavelength,
+                                          std::span<const double> factors, const FocalGrid &grid,
+                                          double eps) const override {
+        std::vector<Diffraction> all(factors.size());
+        const Wavefront steepest = wavefront.scaled(std::ranges::max(factors));
+        refine(steepest, wavelength, grid, eps,
                [&](const Quadrature &own, const Quadrature &finer, double asked) {
-                   const Transform transform(pupil_, wavefront, wavelength, grid, own, asked);
-                   out.intensity = transform.intensity(0, grid.size);
-                   out.nodes = transform.nodes();
-                   out.error = error(out.intensity.view(), wavefront, wavelength, grid, own, finer);
-                   return out.error;
+                   Transform transform(pupil_, wavefront, factors, wavelength, grid, own, asked);
+                   for (size_t k = 0; k < all.size(); ++k) {
+                       all[k].intensity = {};
+                       all[k].intensity = transform.last_intensity(k);
+                       all[k].nodes = transform.nodes();
+                       all[k].model_error = fit_error_;
+                   }
+                   return find_errors(wavefront, wavelength, factors, grid, own, finer, all);
                });
-        return out;
+        return all;
     }
 
     std::vector<Plane<double>> changes(const Wavefront &wavefront, std::span<const Wavefront> by,
@@ -238,11 +280,11 @@ template <class Pupil> class GeometricAperture final : public Aperture {
                                        double eps) const override {
         const Quadrature quadrature = refined(wavefront, wavelength, grid, eps).quadrature;
         const Plane<Complex> amplitude =
-            Transform(pupil_, wavefront, wavelength, grid, quadrature, eps).amplitude();
+            Transform(pupil_, wavefront, once, wavelength, grid, quadrature, eps).amplitude();
         std::vector<Plane<double>> changes;
         for (const Wavefront &change : by) {
             const Plane<Complex> slope =
-                Transform(pupil_, wavefront, wavelength, grid, quadrature, eps, &change)
+                Transform(pupil_, wavefront, once, wavelength, grid, quadrature, eps, &change)
                     .amplitude();
             auto &out = changes.emplace_back(Plane<double>::unset(grid.size, grid.size));
             for (int64_t y = 0; y < grid.size; ++y)
@@ -262,7 +304,7 @@ template <class Pupil> class GeometricAperture final : public Aperture {
         const auto [best, error] =
             refined(wavefront, wavelength, grid, (1 - 4 * strip_share) * eps);
         return std::make_unique<GeometricStrips>(
-            Transform(pupil_, wavefront, wavelength, grid, best, transform_eps),
+            Transform(pupil_, wavefront, once, wavelength, grid, best, transform_eps),
             error + 2 * std::max(transform_eps, nufft_best_eps));
     }
 
@@ -306,8 +348,9 @@ template <class Pupil> class GeometricAperture final : public Aperture {
         // Far from the core a wrong amplitude meets a small one, so that the intensity is better
         // than the amplitude; the transform's errors are those of many sources, of which most
         // cancel. So start loosely and let the check decide.
+        constexpr double loosely = 8;
         double before = std::numeric_limits<double>::infinity();
-        for (double asked = eps;;) {
+        for (double asked = loosely * eps;;) {
             const Quadrature own{wavenumber, std::min(0.1, 30 * asked)};
             const Quadrature finer{(rough ? 1.3 : 1) * wavenumber, own.eps * 1e-2};
             const double error = attempt(own, finer, asked);
@@ -341,8 +384,8 @@ template <class Pupil> class GeometricAperture final : public Aperture {
     // Four times the largest difference of |A|^2 at the probes between two quadratures.
     double quadrature_error(const Wavefront &wavefront, double wavelength, const FocalGrid &grid,
                             const Quadrature &own, const Quadrature &finer) const {
-        const auto mine = at_probes(wavefront, wavelength, grid, own);
-        const auto truth = at_probes(wavefront, wavelength, grid, finer);
+        const auto mine = at_probes(wavefront, wavelength, once, grid, own)[0];
+        const auto truth = at_probes(wavefront, wavelength, once, grid, finer)[0];
         double worst = 0;
         for (size_t p = 0; p < truth.size(); ++p) {
             const double off = std::abs(mine[p] - truth[p]);
@@ -353,47 +396,59 @@ template <class Pupil> class GeometricAperture final : public Aperture {
         return 4 * worst / (area_ * area_) + rounding;
     }
 
-    // The amplitude at the probes, by a plain sum.
-    std::array<Complex, per_axis * per_axis> at_probes(const Wavefront &wavefront,
-                                                       double wavelength, const FocalGrid &grid,
-                                                       const Quadrature &quadrature) const {
+    // The amplitude at the probes, by a plain sum, for each factor.
+    using Amplitudes = std::array<Complex, per_axis * per_axis>;
+    std::vector<Amplitudes> at_probes(const Wavefront &wavefront, double wavelength,
+                                      std::span<const double> factors, const FocalGrid &grid,
+                                      const Quadrature &quadrature) const {
         const std::array<int64_t, per_axis> at = probes(grid);
         std::array<double, per_axis> turns;
         for (size_t i = 0; i < per_axis; ++i)
             turns[i] = grid.angle(at[i]) / wavelength;
-        LaneSums sums;
+        std::vector<LaneSums> sums(factors.size());
         Sources sources;
         pupil_nodes(pupil_, quadrature.wavenumber, quadrature.eps, [&](const PupilNodes &nodes) {
-            sources.take(nodes, wavefront);
+            sources.take(nodes, wavefront, factors);
             add_to_probes(nodes, sources, turns, sums);
         });
-        std::array<Complex, per_axis * per_axis> amplitude;
-        for (size_t p = 0; p < amplitude.size(); ++p)
-            amplitude[p] = {std::accumulate(sums.re[p].begin(), sums.re[p].end(), 0.0),
-                            std::accumulate(sums.im[p].begin(), sums.im[p].end(), 0.0)};
-        return amplitude;
+        std::vector<Amplitudes> all;
+        for (const LaneSums &sum : sums) {
+            Amplitudes &amplitude = all.emplace_back();
+            for (size_t p = 0; p < amplitude.size(); ++p)
+                amplitude[p] = {std::accumulate(sum.re[p].begin(), sum.re[p].end(), 0.0),
+                                std::accumulate(sum.im[p].begin(), sum.im[p].end(), 0.0)};
+        }
+        return all;
     }
 
     // Four times the largest difference of |A|^2 from a finer quadrature that is summed plainly.
     // What a map's roughness makes of the amplitude is the same at all angles, and counts where the
-    // amplitude is largest.
-    double error(View<const double> intensity, const Wavefront &wavefront, double wavelength,
-                 const FocalGrid &grid, const Quadrature &own, const Quadrature &finer) const {
+    // amplitude is largest. Returns the largest error of all.
+    double find_errors(const Wavefront &wavefront, double wavelength,
+                       std::span<const double> factors, const FocalGrid &grid,
+                       const Quadrature &own, const Quadrature &finer,
+                       std::vector<Diffraction> &all) const {
         const std::array<int64_t, per_axis> at = probes(grid);
-        const auto truth = at_probes(wavefront, wavelength, grid, finer);
-        const double most = largest(intensity);
-        double worst = 0;
-        for (size_t p = 0; p < truth.size(); ++p)
-            worst = std::max(worst, std::abs(intensity(at[p % per_axis], at[p / per_axis]) -
-                                             std::norm(truth[p])));
-        if (wavefront.has_map()) {
-            const auto mine = at_probes(wavefront, wavelength, grid, own);
-            double off = 0;
-            for (size_t p = 0; p < truth.size(); ++p)
-                off = std::max(off, std::abs(mine[p] - truth[p]));
+        const bool rough = wavefront.has_map();
+        const auto truth = at_probes(wavefront, wavelength, factors, grid, finer);
+        const auto mine = rough ? at_probes(wavefront, wavelength, factors, grid, own)
+                                : std::vector<Amplitudes>();
+        double largest_error = 0;
+        for (size_t k = 0; k < all.size(); ++k) {
+            const View<const double> intensity = std::as_const(all[k].intensity).view();
+            const double most = largest(intensity);
+            double worst = 0, off = 0;
+            for (size_t p = 0; p < truth[k].size(); ++p) {
+                worst = std::max(worst, std::abs(intensity(at[p % per_axis], at[p / per_axis]) -
+                                                 std::norm(truth[k][p])));
+                if (rough)
+                    off = std::max(off, std::abs(mine[k][p] - truth[k][p]));
+            }
             worst = std::max(worst, (2 * std::sqrt(most) + off) * off);
+            all[k].error = 4 * worst / (area_ * area_) + 2 * rounding * std::sqrt(most) / area_;
+            largest_error = std::max(largest_error, all[k].error);
         }
-        return 4 * worst / (area_ * area_) + 2 * rounding * std::sqrt(most) / area_;
+        return largest_error;
     }
 
     Pupil pupil_;

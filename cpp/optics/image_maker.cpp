@@ -67,9 +67,13 @@ double ImageMaker::unaberrated_peak(double wavelength) const {
     return scale(wavelength) * area * area;
 }
 
-Diffraction ImageMaker::diffract(double wavelength, const FocalGrid &grid) const {
-    return optics_.aperture->diffract(at(wavelength, optics_.wavefront), wavelength, grid,
-                                      for_diffraction_);
+std::vector<Diffraction> ImageMaker::diffract(std::span<const double> wavelengths,
+                                              const FocalGrid &grid) const {
+    std::vector<double> factors;
+    for (const double wavelength : wavelengths)
+        factors.push_back(wavelengths[0] / wavelength);
+    return optics_.aperture->diffract_all(at(wavelengths[0], optics_.wavefront), wavelengths[0],
+                                          factors, grid, for_diffraction_);
 }
 
 std::vector<Plane<double>> ImageMaker::changes(double wavelength, std::span<const Wavefront> by,

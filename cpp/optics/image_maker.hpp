@@ -38,7 +38,9 @@ class ImageMaker {
     double scale(double wavelength) const;
     double unaberrated_peak(double wavelength) const;
 
-    Diffraction diffract(double wavelength, const FocalGrid &grid) const;
+    // The grid is that of the first wavelength, the others' steps in proportion.
+    std::vector<Diffraction> diffract(std::span<const double> wavelengths,
+                                      const FocalGrid &grid) const;
     // By the factors of wavefronts in waves: see Aperture::changes().
     std::vector<Plane<double>> changes(double wavelength, std::span<const Wavefront> by,
                                        const FocalGrid &grid) const;
@@ -55,6 +57,11 @@ class ImageMaker {
     AveragedSamples unaveraged(double eps) const {
         return AveragedSamples(bandwidth(shortest_wavelength_), 0, optics_.aperture->outline(),
                                eps / strength_);
+    }
+    // The same for any light with no frequencies above theirs, not the whole image's: to `eps` of
+    // the integral of its absolute spectrum.
+    BandlimitedInterpolator interpolator_of_any(double eps) const {
+        return BandlimitedInterpolator(bandwidth(shortest_wavelength_), eps);
     }
     double strength() const { return strength_; } // of the spectrum that bounds an image's
 

@@ -10,12 +10,20 @@
 #include "image/view.hpp"
 #include "optics/aperture.hpp"
 #include "optics/image_maker.hpp"
+#include "optics/scaling_tiles.hpp"
 
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace wfpsf {
+
+// Sums over colours, for places within `half` samples of the axis along either axis.
+struct ColourSums {
+    double half;
+    std::vector<double> wavelengths;
+    std::vector<std::vector<double>> weights; // for each sum those of the colours
+};
 
 // Colours of one spectrum, or more of the same wavelengths.
 class Scaling {
@@ -35,18 +43,18 @@ class Scaling {
     // nothing.
     double error() const { return error_; }
 
-    // For each row of weights: the sum over k of weights[k] times the image of colours[k].
-    std::vector<Plane<double>> sums(std::span<const Plane<double>> images,
-                                    std::span<const double> colours,
-                                    std::span<const std::vector<double>> weights,
+    // The sums of the images, which are used up. Rules from the outermost to the innermost.
+    std::vector<Plane<double>> sums(std::vector<Plane<double>> images,
+                                    std::span<const ColourSums> rules,
                                     const Progress &progress = {}) const;
 
   private:
-    double blue_;
+    double blue_, middle_ = 0, half_ = 0; // of 1 / wavelength
     FocalGrid to_;
     int64_t from_; // samples of the given images along an axis
     std::vector<double> wavelengths_;
     std::optional<AveragedSamples> samples_; // unless there is one wavelength alone
+    ScaledTiles::Economy economy_{};
     double error_ = 0;
 };
 

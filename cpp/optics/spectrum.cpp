@@ -161,11 +161,12 @@ Spectrum together(std::span<const Spectrum> spectra) {
     return sum;
 }
 
-WavelengthRule::WavelengthRule(const Spectrum &spectrum, size_t n) {
+WavelengthRule::WavelengthRule(const Spectrum &spectrum, size_t n, double largest_share) {
     const auto [blue, red] = std::ranges::minmax(spectrum.wavelength);
     middle_ = (1 / blue + 1 / red) / 2;
     half_ = (1 / blue - 1 / red) / 2;
-    exact_ = spectrum.size() == 1 || 3 * n > spectrum.size();
+    exact_ = spectrum.size() == 1 ||
+             static_cast<double>(n) > largest_share * static_cast<double>(spectrum.size());
     if (exact_) {
         wavelength_ = spectrum.wavelength;
         return;

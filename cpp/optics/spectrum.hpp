@@ -49,10 +49,11 @@ Spectrum together(std::span<const Spectrum> spectra);
 // The n-point Gauss rule of a spectrum (Golub & Welsch 1969, Math. Comp. 23, 221; its orthogonal
 // polynomials by Stieltjes' procedure): sums of polynomials of degree below 2n in 1 / wavelength,
 // in which interference is a wave, are exact, however rough the throughput. Where that asks for
-// more than a third of the spectrum's own points, they are the rule.
+// more than a third of the spectrum's own points, or another share of them, they are the rule.
 class WavelengthRule {
   public:
-    WavelengthRule(const Spectrum &spectrum, size_t n);
+    static constexpr double usual_share = 1.0 / 3;
+    WavelengthRule(const Spectrum &spectrum, size_t n, double largest_share = usual_share);
 
     size_t size() const { return wavelength_.size(); }
     const std::vector<double> &wavelengths() const { return wavelength_; } // m

@@ -89,6 +89,33 @@ TEST(Nufft, StripsGiveTheBitsOfTheWhole) {
         EXPECT_EQ(transform(sources, {-0.9, 0.8}, 20, 1e-8, strip), whole) << strip;
 }
 
+// Sources one above the other share their weights along x, and several transforms their places.
+TEST(Nufft, ColumnsOfSourcesAndSeveralTransformsMeetTheDirectSum) {
+    const int64_t K = 12, modes = 2 * K + 1;
+    Sources one(60, 0.8), other = one;
+    for (size_t i = 0; i < one.a.size(); ++i) {
+        one.a[i] = other.a[i] = one.a[i / 20 * 20];
+        other.c[i] = std::conj(one.c[i]) * 1.5;
+    }
+    std::vector<Complex> both = one.c;
+    both.insert(both.end(), other.c.begin(), other.c.end());
+    for (const double eps : {1e-3, 1e-7, 1e-12}) {
+        Type1Transform nufft({-0.8, 0.8}, {-0.8, 0.8}, K, eps, 2);
+        nufft.add(one.a, one.b, both);
+        for (size_t which = 0; which < 2; ++which)
+            nufft.rows(
+                -K, K,
+                [&](int64_t jy, std::span<const Complex> row) {
+                    ASSERT_EQ(row.size(), static_cast<size_t>(modes));
+                    for (int64_t jx = -K; jx <= K; jx += 3)
+                        EXPECT_LE(std::abs(row[static_cast<size_t>(jx + K)] -
+                                           (which == 0 ? one : other).direct(jx, jy)),
+                                  eps * 1.5 * one.strength);
+                },
+                which);
+    }
+}
+
 // Sources at the very ends of a band that lies off the origin.
 TEST(Nufft, BandMayEndAtItsSources) {
     Sources sources(2, 1);

@@ -82,9 +82,9 @@ double difference(const Plane<double> &a, const Plane<double> &b) {
 }
 
 // A few points of a spectrum and of the same range, to keep the sum over them short.
-Spectrum some_of(const Spectrum &all) {
+Spectrum some_of(const Spectrum &all, size_t count = 40) {
     Spectrum some;
-    const size_t stride = all.size() / 40;
+    const size_t stride = all.size() / count;
     double total = 0;
     for (size_t i = stride / 2; i < all.size(); i += stride)
         total += all.weight[i];
@@ -178,6 +178,68 @@ TEST(Scaling, DerivativesMeetDifferences) {
         for (int64_t x = 0; x < side; ++x)
             differences(x, y) = (8 * (c(x, y) - b(x, y)) - (d(x, y) - a(x, y))) / (12 * step);
     EXPECT_LE(difference(slope, differences), 2e-6);
+}
+
+// Far from the axis, where images are made of fewer terms and by shorter filters, in single
+// precision, and near it, where they are a sum of fewer wavelengths.
+TEST(Scaling, WideFieldsMeetTheSumOfTheirColours) {
+    const double radius = 64;
+    const auto width = static_cast<int64_t>(2 * radius - 1);
+    const Star middle{radius - 1.3, radius - 0.6, 1};
+    const auto wide = [&](const Psf &psf) {
+        Plane<double> stamp(width, width);
+        psf.draw(middle, 1, stamp.view());
+        return stamp;
+    };
+    const Optics optics{segments(), aberrated(1), 1293e-9};
+    PsfSettings of = settings(1e-9);
+    of.radius = radius;
+    Spectrum spectrum = some_of(light_of("J129")(0), 200);
+    Plane<double> truth(width, width);
+    for (size_t i = 0; i < spectrum.size(); ++i) {
+        PsfSettings own = of;
+        own.wavelength = spectrum.wavelength[i];
+        const Plane<double> stamp = wide(
+            Psf(optics.aperture, optics.wavefront.scaled(optics.wavelength / own.wavelength), own));
+        for (int64_t y = 0; y < width; ++y)
+            for (int64_t x = 0; x < width; ++x)
+                truth(x, y) += spectrum.weight[i] * stamp(x, y);
+    }
+    const Light light = [&spectrum](double) { return spectrum; };
+    for (const double eps : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8}) {
+        of.eps = eps;
+        const Psf psf = std::move(make_psfs(optics, {&light, 1}, of)[0]);
+        const double error = difference(wide(psf), truth);
+        EXPECT_LE(error, eps);
+        EXPECT_LE(error, psf.error_estimate() + 2e-9) << eps;
+        EXPECT_LE(psf.error_estimate(), eps);
+    }
+}
+
+// A field made like that of other optics, as large as it or smaller.
+TEST(Scaling, FieldsLikeOthersAreAsGood) {
+    const Light light = light_of("J129");
+    const Optics one{segments(), aberrated(1), 1293e-9};
+    const Optics other{one.aperture, aberrated(0.7), 1293e-9};
+    const auto stamp_of = [](const Field &field) {
+        Plane<double> stamp(side, side);
+        field.draw(star, 1, 0, 0, stamp.view());
+        return stamp;
+    };
+    PsfSettings of = settings(1e-9);
+    const Plane<double> truth = stamp_of(make_fields(other, {&light, 1}, of, 8)[0]);
+    for (const double eps : {1e-3, 1e-5, 1e-7}) {
+        of.eps = eps;
+        const Field wide = std::move(make_fields(one, {&light, 1}, of, 40)[0]);
+        for (const double radius : {8.0, 20.0, 40.0}) {
+            const Field field = make_field_like(wide, other, of, radius);
+            const double error = difference(stamp_of(field), truth);
+            EXPECT_LE(error, field.error + 1e-9) << eps << ' ' << radius;
+            EXPECT_LE(field.error, eps);
+            EXPECT_LE(field.colours.size(), wide.colours.size());
+        }
+        EXPECT_LT(make_field_like(wide, other, of, 8).colours.size(), wide.colours.size());
+    }
 }
 
 // The bound of the pairs' differences, by all pairs.
