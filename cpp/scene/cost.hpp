@@ -16,7 +16,7 @@ inline double digits(double eps) {
 // A PSF that reaches `radius` native pixels, of light of a relative bandwidth (0: one colour).
 inline double psf(double radius, double eps, double bandwidth) {
     if (bandwidth > 0)
-        return digits(eps) * (1.3e-3 + 1.1e-5 * radius * radius * (1 + radius / 600));
+        return digits(eps) * (6e-4 + 4.2e-6 * radius * radius * (1 + radius / 250));
     const double per_area = radius <= 64 ? 2.7e-6 : 8.5e-6;
     return digits(eps) / 6 * (0.7e-3 + per_area * radius * radius);
 }
@@ -33,7 +33,7 @@ inline double shared_psf(double radius, double eps, double bandwidth, bool varie
         return psf(radius, eps, bandwidth);
     const auto within = [=](double r) { return psf(std::min(radius, r), eps, bandwidth); };
     const double core = 16 * std::sqrt(1e-5 / eps);
-    return 10 * psf(radius, eps, bandwidth) + 15 * within(std::max(8.0, core)) +
+    return 30 * psf(radius, eps, bandwidth) + 15 * within(std::max(8.0, core)) +
            60 * within(std::max(4.0, core / 2));
 }
 

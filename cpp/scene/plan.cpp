@@ -381,6 +381,7 @@ void ScenePlan::choose() {
 // The sources; a batch of stars; models and tables; a PSF drawn by itself.
 int64_t ScenePlan::memory() const {
     constexpr double samples = 8 * 16; // bytes of a native pixel's samples
+    constexpr double making = 2800;    // and while a PSF is made of many colours
     const auto area = [](double radius) { return 4 * radius * radius; };
     const double held = static_cast<double>(sources_.size() * sizeof(PlacedSource)) + 12e6;
     double shared = 0, alone = 0;
@@ -390,12 +391,12 @@ int64_t ScenePlan::memory() const {
     for (const SharedFarLight &far : far_)
         if (far.needed) {
             shared += samples * area(far.radius);
-            alone = std::max(alone, 4 * samples * area(far.exact_radius));
+            alone = std::max(alone, making * area(far.exact_radius));
         }
     for (const PlannedGroup &planned : planned_)
         if (planned.way.drawing == Drawing::own)
-            alone = std::max(alone,
-                             4 * samples * area(std::min(planned.way.radius, Way::largest_field)));
+            alone =
+                std::max(alone, making * area(std::min(planned.way.radius, Way::largest_field)));
     return static_cast<int64_t>(held + shared + alone);
 }
 

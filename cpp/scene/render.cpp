@@ -124,7 +124,8 @@ template <class T> class Renderer {
         if (far.exact_radius > 0) {
             const auto [x, y] = FarTables::places(plan_.region(), false)[0];
             exact.emplace(std::move(make_psfs(optics_.nearest(x, y), {&optics_.lights[colour], 1},
-                                              settings(far.exact_eps, far.exact_radius))[0]));
+                                              settings(far.exact_eps, far.exact_radius),
+                                              {{}, manners_.memory_limit})[0]));
             ++report_.exact_psfs;
         }
         constexpr double little = 0.1; // of the budget
