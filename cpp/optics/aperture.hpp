@@ -5,6 +5,7 @@
 // and a nonuniform FFT for a pupil given as geometry, a chirp transform of a mask's square pixels.
 #pragma once
 
+#include "error/progress.hpp"
 #include "image/view.hpp"
 #include "instrument/pupil.hpp"
 #include "numerics/bandlimited.hpp"
@@ -67,11 +68,14 @@ class Aperture {
     // the grid's step is divided, too, and the wavefront's waves are multiplied.
     virtual std::vector<Diffraction> diffract_all(const Wavefront &wavefront, double wavelength,
                                                   std::span<const double> factors,
-                                                  const FocalGrid &grid, double eps) const {
+                                                  const FocalGrid &grid, double eps,
+                                                  const Progress &progress) const {
         std::vector<Diffraction> all;
-        for (const double factor : factors)
+        for (const double factor : factors) {
+            progress.report(static_cast<double>(all.size()) / static_cast<double>(factors.size()));
             all.push_back(diffract(wavefront.scaled(factor), wavelength / factor,
                                    {grid.size, grid.step / factor}, eps));
+        }
         return all;
     }
     virtual std::unique_ptr<const DiffractionStrips> diffract_in_strips(const Wavefront &wavefront,

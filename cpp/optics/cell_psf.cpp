@@ -18,7 +18,7 @@ namespace {
 
 constexpr int degree = 3; // of the polynomials within a cell
 
-// T_i along one axis of a cell, i = 0, 1, ...: coefficients of T_0, T_1 and T_2 of -1..1 within it,
+// T_i along one axis of a cell, i = 0, 1, ...: coefficients of T_0, T_1, ... of -1..1 within it,
 // by Chebyshev's roots.
 using Within = std::array<std::array<double, degree + 1>, largest_chebyshev_degree + 1>;
 Within within(double middle, double half) {

@@ -78,8 +78,8 @@ struct Images {
 
     Images(const ImageMaker &maker, const Scaling &scaling, const Progress &progress) {
         const std::vector<double> &wavelengths = scaling.wavelengths();
-        progress.report(0);
-        for (Diffraction &image : maker.diffract(wavelengths, scaling.grid(wavelengths[0]))) {
+        for (Diffraction &image :
+             maker.diffract(wavelengths, scaling.grid(wavelengths[0]), progress)) {
             intensity.push_back(std::move(image.intensity));
             error.push_back(image.error);
             model_error.push_back(image.model_error);

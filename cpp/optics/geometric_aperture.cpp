@@ -252,19 +252,23 @@ template <class Pupil> class GeometricAperture final : public Aperture {
 
     Diffraction diffract(const Wavefront &wavefront, double wavelength, const FocalGrid &grid,
                          double eps) const override {
-        return std::move(diffract_all(wavefront, wavelength, once, grid, eps)[0]);
+        return std::move(diffract_all(wavefront, wavelength, once, grid, eps, {})[0]);
     }
 
     // All by the same nodes, since a place on their grids is as many wavelengths off the axis.
     std::vector<Diffraction> diffract_all(const Wavefront &wavefront, double wavelength,
                                           std::span<const double> factors, const FocalGrid &grid,
-                                          double eps) const override {
+                                          double eps, const Progress &progress) const override {
         std::vector<Diffraction> all(factors.size());
+        double done = 0; // even if all are made again
         const Wavefront steepest = wavefront.scaled(std::ranges::max(factors));
         refine(steepest, wavelength, grid, eps,
                [&](const Quadrature &own, const Quadrature &finer, double asked) {
                    Transform transform(pupil_, wavefront, factors, wavelength, grid, own, asked);
                    for (size_t k = 0; k < all.size(); ++k) {
+                       done =
+                           std::max(done, static_cast<double>(k) / static_cast<double>(all.size()));
+                       progress.report(done);
                        all[k].intensity = {};
                        all[k].intensity = transform.last_intensity(k);
                        all[k].nodes = transform.nodes();

@@ -68,12 +68,13 @@ double ImageMaker::unaberrated_peak(double wavelength) const {
 }
 
 std::vector<Diffraction> ImageMaker::diffract(std::span<const double> wavelengths,
-                                              const FocalGrid &grid) const {
+                                              const FocalGrid &grid,
+                                              const Progress &progress) const {
     std::vector<double> factors;
     for (const double wavelength : wavelengths)
         factors.push_back(wavelengths[0] / wavelength);
     return optics_.aperture->diffract_all(at(wavelengths[0], optics_.wavefront), wavelengths[0],
-                                          factors, grid, for_diffraction_);
+                                          factors, grid, for_diffraction_, progress);
 }
 
 std::vector<Plane<double>> ImageMaker::changes(double wavelength, std::span<const Wavefront> by,

@@ -39,8 +39,8 @@ class ImageMaker {
     double unaberrated_peak(double wavelength) const;
 
     // The grid is that of the first wavelength, the others' steps in proportion.
-    std::vector<Diffraction> diffract(std::span<const double> wavelengths,
-                                      const FocalGrid &grid) const;
+    std::vector<Diffraction> diffract(std::span<const double> wavelengths, const FocalGrid &grid,
+                                      const Progress &progress) const;
     // By the factors of wavefronts in waves: see Aperture::changes().
     std::vector<Plane<double>> changes(double wavelength, std::span<const Wavefront> by,
                                        const FocalGrid &grid) const;

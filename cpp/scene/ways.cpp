@@ -23,7 +23,7 @@ double of_model(double eps) {
     return eps > 5e-4 ? 0.2 : 0.1;
 }
 double of_far(double radius) {
-    return std::min(0.5, 50 / radius);
+    return std::min(0.8, 50 / radius);
 }
 
 // Tables of far light are that share of the light off, and more, the more it differs from place to

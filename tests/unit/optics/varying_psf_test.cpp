@@ -97,7 +97,7 @@ TEST(VaryingPsf, WhatDoesNotVaryCostsOnePsf) {
         .draw({4.2, 4, 1}, 1, b.view());
     for (int64_t y = 0; y < 9; ++y)
         for (int64_t x = 0; x < 9; ++x)
-            EXPECT_NEAR(a(x, y), b(x, y), 1e-12);
+            EXPECT_NEAR(a(x, y), b(x, y), 0.01 * 1e-8 * model.at(3, 4000).peak());
 }
 
 // Stars on a piece of a detector, each with its own PSF, at two samplings, on any number of

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tabulated far light against far light itself, and against exact PSFs of other places.
+#include "scene/far_reach.hpp"
 #include "scene/far_table.hpp"
 #include "scenes.hpp"
 
@@ -69,7 +70,8 @@ TEST(FarTables, OfFarLightAloneAreThat) {
 
 // What plans count on: cpp/scene/ways.cpp.
 TEST(FarTables, StandForExactPsfsOfAllPlaces) {
-    for (const auto &[band, sca] : {std::pair("J129", 7), std::pair("Z087", 3)}) {
+    for (const auto &[band, sca] :
+         {std::pair("J129", 7), std::pair("Z087", 3), std::pair("H158", 12)}) {
         const SceneOptics optics = broadband(band, sca);
         const std::vector<FarLight> lights = at_places(optics);
         const Psf middle = exact(optics, 2044, 2044);
@@ -81,6 +83,11 @@ TEST(FarTables, StandForExactPsfsOfAllPlaces) {
             const double error = largest_difference(drawn_at(tables, x, y), truth);
             EXPECT_LE(error, 3e-3 * lights[0].brightest_beyond(nearest)) << band;
             EXPECT_LE(5 * error, largest_difference(of_middle, truth)) << band;
+            Plane<double> edges(160, 150);
+            far_light(optics, x, y).add(star, nearest, floor, edges.view());
+            EXPECT_LE(largest_difference(edges, truth),
+                      0.8 * FarReach(lights[0], 1).error(nearest, 0, 1))
+                << band;
         }
     }
 }
