@@ -227,6 +227,7 @@ std::vector<std::pair<double, double>> FarTables::places(const Region &image, bo
     if (!varies)
         return {at(1, 1)};
     std::vector<std::pair<double, double>> places;
+    places.reserve(order.size());
     for (const auto &[i, j] : order)
         places.push_back(at(i, j));
     return places;
