@@ -25,16 +25,18 @@ class Truth {
         : optics_(optics), little_(little),
           far_(optics.middle(), optics.lights[0], settings(1e-4, 32)) {}
 
-    // All light that stars give a window. Those that give its pixels little get the far light of
-    // the detector's middle.
+    // All light that stars give a window. Those that give its pixels little, and very far ones, get
+    // the far light of the detector's middle.
     Plane<double> window(std::span<const PlacedSource> stars, const SceneImage &window) const {
+        constexpr double farthest = 400; // native pixels
         Plane<double> image(window.nx, window.ny);
         const double half = static_cast<double>(window.nx) / 2;
         for (const PlacedSource &star : stars) {
             const double x = star.x - window.x0, y = star.y - window.y0;
             const double off = std::max(std::abs(x - half), std::abs(y - half));
             const double nearest = std::max(off - half, far_.nearest());
-            if (off - half > far_.nearest() && star.flux * far_.brightest_beyond(nearest) < little_)
+            const bool is_far = off - half > far_.nearest();
+            if (off > farthest || (is_far && star.flux * far_.brightest_beyond(nearest) < little_))
                 add_far(star, x, y, image);
             else
                 add_exact(star, x, y, off + half, image);
@@ -142,7 +144,10 @@ Case stars_case(const Stars &field, double noise, double target_s, bool with_err
                     kept = stars;
                 m.timing = time(
                     [&] {
-                        const ScenePlan plan(optics, std::move(stars), {}, budget, image);
+                        // Only what takes long enough to be drawn once need not be copied.
+                        const bool once = field.count > 1000000;
+                        const ScenePlan plan(optics, once ? std::move(stars) : stars, {}, budget,
+                                             image);
                         m.baseline = "the time that was planned";
                         m.baseline_s = plan.time_s();
                         render(optics, plan, drawn.view(), 1);
@@ -166,7 +171,7 @@ std::vector<Case> scene_cases() {
     for (const double noise : {0.1, 0.01})
         cases.push_back(stars_case({100000, 16, 28}, noise, 0, false));
     for (const double noise : {0.1, 0.03, 0.01})
-        cases.push_back(stars_case({100000, 12, 28}, noise, noise == 0.01 ? 5 : 0, noise < 0.02));
+        cases.push_back(stars_case({100000, 12, 28}, noise, noise == 0.01 ? 5 : 0, false));
     for (const double noise : {0.1, 0.01}) // a crowd
         cases.push_back(stars_case({100000, 20, 26, 0.001}, noise, 0, false));
     cases.push_back(stars_case({10000000, 26, 28}, 1, 0, false));
