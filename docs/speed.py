@@ -20,7 +20,7 @@ MARKED = re.compile(r"(<!-- ([^>]+): by docs/speed.py -->\n).*?(<!-- end -->)", 
 # Each case belongs to the first area whose pattern is in its name.
 AREAS = [
     ("PSFs", r"^PSF model|^effective PSF"),
-    ("Stars on a detector", r"^star stamp|^1e4 stars"),
+    ("Stars on a detector", r"^star stamp|^1e4 stars|^Star of"),
     ("Many colours", r"^chromatic"),
     ("Bright stars and far light", r"^stamp |^far light"),
     ("Over a detector", r"^PSF all over|^PSF at a place"),
