@@ -20,16 +20,20 @@ double bandwidth_of(const Light &light) {
     return (red - blue) / spectrum.mean_wavelength();
 }
 
-// The largest difference of the far light of two places, as a share of its brightest.
-double far_difference(const FarLight &a, const FarLight &b) {
+// The largest difference of the far light of other places from that of the first, as a share of the
+// brightest there.
+double far_variation(std::span<const FarLight> at_places) {
     constexpr int directions = 720;
-    const double r = 2 * a.nearest();
+    const FarLight &first = at_places[0];
+    const double r = 2 * first.nearest();
     double most = 0, brightest = 0;
     for (int i = 0; i < directions; ++i) {
         const double angle = 2 * std::numbers::pi * i / directions;
         const double x = r * std::cos(angle), y = r * std::sin(angle);
-        most = std::max(most, std::abs(a.at(x, y) - b.at(x, y)));
-        brightest = std::max(brightest, a.at(x, y));
+        const double light = first.at(x, y);
+        brightest = std::max(brightest, light);
+        for (const FarLight &other : at_places.subspan(1))
+            most = std::max(most, std::abs(light - other.at(x, y)));
     }
     return most / brightest;
 }
@@ -190,8 +194,7 @@ void ScenePlan::learn_colours(const SceneOptics &optics) {
         const double from = 0.75 * facts.profile.seen();
         facts.far.emplace(
             far, std::min(1.0, facts.profile.brightest_beyond(from) / far.brightest_beyond(from)));
-        for (const FarLight &other : facts.far_lights)
-            facts.far_varies = std::max(facts.far_varies, far_difference(far, other));
+        facts.far_varies = far_variation(facts.far_lights);
     }
 }
 

@@ -151,9 +151,9 @@ template <class T> class Renderer {
         report_.error = together(errors);
     }
 
-    // work(first_row, last_row) on bands of the rows that stars reach.
-    template <class Work> void on_rows(double low, double high, const Work &work) const {
-        on_bands_of_rows(low, high, image_.ny, threads_, work);
+    // work(first_row, last_row) on bands of rows.
+    template <class Work> void on_rows(const Work &work) const {
+        on_bands_of_rows(image_.ny, threads_, work);
     }
 
     // A part of the sources at a time, so that memory does not grow with their number.
@@ -203,7 +203,7 @@ template <class T> class Renderer {
                 continue;
             light.spread([&](double radius) { return left_out(plan_.groups()[g], radius); });
         }
-        on_rows(0, static_cast<double>(image_.ny), [&](int64_t first_row, int64_t last_row) {
+        on_rows([&](int64_t first_row, int64_t last_row) {
             light.add_to(image_, first_row, last_row);
         });
     }
@@ -243,7 +243,7 @@ template <class T> class Renderer {
                     .push_back({frame_.star(source), &source, &way,
                                 &*tables_[static_cast<size_t>(source.colour)]});
         }
-        on_rows(0, static_cast<double>(image_.ny), [&](int64_t first_row, int64_t last_row) {
+        on_rows([&](int64_t first_row, int64_t last_row) {
             for (const auto &[star, source, way, tables] : stars)
                 tables->add(star, source->x, source->y, way->radius, way->far, image_, first_row,
                             last_row);
@@ -319,7 +319,7 @@ template <class T> class Renderer {
         ++report_.exact_psfs;
         const Otf otf = psf.otf(eps);
         report_.drawn += static_cast<int64_t>(galaxies.size());
-        on_rows(0, static_cast<double>(image_.ny), [&](int64_t first_row, int64_t last_row) {
+        on_rows([&](int64_t first_row, int64_t last_row) {
             SersicProfiles profiles;
             GalaxyDrawer drawer(transfer_of(otf, s.pixel_scale), optics_.pixel_scale_arcsec,
                                 profiles);

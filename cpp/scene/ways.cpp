@@ -189,6 +189,14 @@ void Ways::add_far(const Way &way, double time_s, const SharedFarLight &far,
     }
 }
 
+void Ways::go_beyond(const Way &way, double time_s, const SharedFarLight &far,
+                     const Take &take) const {
+    if (far.needed)
+        add_far(way, time_s, far, take);
+    else
+        leave_far(way, time_s, take);
+}
+
 double Ways::shared_stamps(double radius, double left_out) const {
     const double stamps = count() * cost::shared_stamp(width(radius), left_out);
     const bool differ = colour_.varies && differs * colour_.profile.peak() > left_out;
@@ -208,10 +216,7 @@ void Ways::of_shared(double eps, double from, double to, const SharedFarLight &f
                 continue;
             way.radius = radius;
             const double time = shared_stamps(radius, way.left_out);
-            if (far.needed)
-                add_far(way, time, far, take);
-            else
-                leave_far(way, time, take);
+            go_beyond(way, time, far, take);
         }
     }
 }
@@ -229,10 +234,7 @@ void Ways::of_own(const SharedFarLight &far, const Take &take) const {
             else
                 time += cost::stamp(width(radius), radius, eps);
             const Way way{Drawing::own, radius, eps};
-            if (far.needed)
-                add_far(way, count() * time, far, take);
-            else
-                leave_far(way, count() * time, take);
+            go_beyond(way, count() * time, far, take);
         }
 }
 

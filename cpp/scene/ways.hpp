@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -116,7 +115,9 @@ class Ways {
     double mean(double light, double cut) const;
     PixelError left_out(const Way &way, double local, double from, double cut) const;
     double far_off(const SharedFarLight &far, const Way &way) const;
-    // What is beyond the stamps.
+    // What is beyond the stamps: far light, if there are tables of it.
+    void go_beyond(const Way &way, double time_s, const SharedFarLight &far,
+                   const Take &take) const;
     void add_far(const Way &way, double time_s, const SharedFarLight &far, const Take &take) const;
     void leave_far(const Way &way, double time_s, const Take &take) const;
 
