@@ -22,6 +22,12 @@ constexpr double pi = std::numbers::pi;
 constexpr double error_factor = 8;
 constexpr double rounding = AveragedSamples::rounding;
 
+// exp(beta (sqrt(1 - u^2) - 1)), without what its difference would lose near the middle.
+double window(double beta, double u) {
+    const double squared = std::min(1.0, u * u);
+    return std::exp(-beta * squared / (1 + std::sqrt(1 - squared)));
+}
+
 } // namespace
 
 BandlimitedInterpolator::BandlimitedInterpolator(double bandwidth, double eps) {
@@ -39,8 +45,7 @@ double BandlimitedInterpolator::kernel(double t) const {
     const double u = t / half_width_;
     if (std::abs(u) >= 1)
         return 0;
-    const double window = std::exp(beta_ * (std::sqrt(1 - u * u) - 1));
-    return t == 0 ? 1 : window * std::sin(pi * t) / (pi * t);
+    return t == 0 ? 1 : window(beta_, u) * std::sin(pi * t) / (pi * t);
 }
 
 int64_t BandlimitedInterpolator::weights(double x, double *w) const {
@@ -59,9 +64,7 @@ int64_t BandlimitedInterpolator::weights(double x, double *w) const {
         numerator = -numerator;
     for (int k = 0; k < taps(); ++k) {
         const double t = offset + (half_width_ - 1 - k);
-        const double u = t / half_width_;
-        const double window = std::exp(beta_ * (std::sqrt(std::max(0.0, 1 - u * u)) - 1));
-        w[k] = window * numerator / t;
+        w[k] = window(beta_, t / half_width_) * numerator / t;
         numerator = -numerator;
     }
     return first;

@@ -59,6 +59,10 @@ GaussLegendre::GaussLegendre(int n) : x(static_cast<size_t>(n)), w(static_cast<s
             w[low] = w[high] = 2 / ((1 - roots[i] * roots[i]) * slopes[i] * slopes[i]);
         }
     }
+    // The slopes' rounding, of one sign at all roots, is what the weights' sum is off by.
+    const double whole = std::accumulate(w.begin(), w.end(), 0.0) / 2;
+    for (double &weight : w)
+        weight /= whole;
 }
 
 const GaussLegendre &GaussLegendreRules::of(int n) {

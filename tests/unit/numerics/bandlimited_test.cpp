@@ -7,6 +7,7 @@
 #include <complex>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <numeric>
 #include <vector>
 
 namespace wfpsf {
@@ -41,6 +42,18 @@ TEST(Bandlimited, WavesOfTheBandAreMetWithinTheStatedError) {
             EXPECT_LE(worst, interpolator.error()) << bandwidth << ' ' << eps;
             EXPECT_LE(interpolator.error(), std::max(1.01 * eps, 2e-14));
         }
+}
+
+TEST(Bandlimited, LongFiltersLoseNothingByRounding) {
+    for (const double bandwidth : {0.05, 0.2, 0.35}) {
+        const BandlimitedInterpolator interpolator(bandwidth, 0);
+        std::vector<double> w(static_cast<size_t>(interpolator.taps()));
+        for (const double x : {0.125, 0.25, 0.375, 0.5}) {
+            interpolator.weights(x, w.data());
+            EXPECT_NEAR(double(std::accumulate(w.begin(), w.end(), 0.0L) - 1), 0, 6e-16)
+                << bandwidth << ' ' << x;
+        }
+    }
 }
 
 TEST(Bandlimited, SamplesThemselvesAreReturnedUnchanged) {

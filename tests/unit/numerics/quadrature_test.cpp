@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <gtest/gtest.h>
+#include <numeric>
 
 namespace wfpsf {
 namespace {
@@ -24,6 +25,13 @@ TEST(GaussLegendre, IsExactUpToDegreeTwoNMinusOne) {
                 sum += rule.w[i] * std::pow(rule.x[i], degree);
             EXPECT_NEAR(sum, degree % 2 ? 0 : 2.0 / (degree + 1), 1e-13) << n << ' ' << degree;
         }
+    }
+}
+
+TEST(GaussLegendre, WeightsAddUpToTheInterval) {
+    for (int n = 1; n <= 300; ++n) {
+        const GaussLegendre rule(n);
+        EXPECT_NEAR(double(std::accumulate(rule.w.begin(), rule.w.end(), 0.0L) - 2), 0, 2e-15) << n;
     }
 }
 
