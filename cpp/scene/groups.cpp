@@ -34,6 +34,14 @@ class Tiles {
         return static_cast<size_t>(tile_of(s.y - y0_, ny_) * nx_ + tile_of(s.x - x0_, nx_));
     }
 
+    // Squares of 4 x 4 tiles.
+    size_t wide_count() const { return static_cast<size_t>(wide(nx_) * wide(ny_)); }
+    size_t wide_number(size_t tile) const {
+        const auto number = static_cast<int64_t>(tile);
+        return static_cast<size_t>(number / nx_ / tiles_a_side * wide(nx_) +
+                                   number % nx_ / tiles_a_side);
+    }
+
     // Cells of so many native pixels within a tile.
     template <int64_t width> static constexpr int64_t cells = (64 / width) * (64 / width);
     template <int64_t width> size_t cell(const PlacedSource &s) const {
@@ -47,6 +55,9 @@ class Tiles {
 
   private:
     static constexpr double side = 64; // native pixels
+    static constexpr int64_t tiles_a_side = SourceGroup::wide_cell / 64;
+
+    static int64_t wide(int64_t tiles) { return (tiles + tiles_a_side - 1) / tiles_a_side; }
 
     static int64_t tiles(double pixels) {
         return static_cast<int64_t>(std::ceil(pixels / side)) + 2;
@@ -99,6 +110,7 @@ SourceGroups::SourceGroups(std::vector<PlacedSource> &sources, std::span<const G
     constexpr int64_t small = 4; // native pixels
     std::vector<std::array<double, Tiles::cells<SourceGroup::cell>>> in_cells;
     std::vector<std::array<double, Tiles::cells<small>>> in_small; // of the present tile, by group
+    std::vector<std::vector<double>> in_wide;                      // by group
     for (const PlacedSource &source : sources) {
         if (tiles.number(source) != tile) {
             tile = tiles.number(source);
@@ -113,6 +125,7 @@ SourceGroups::SourceGroups(std::vector<PlacedSource> &sources, std::span<const G
                                .octave = octave_of(source.flux)});
             in_cells.emplace_back();
             in_small.emplace_back();
+            in_wide.emplace_back(tiles.wide_count());
         }
         SourceGroup &group = groups_[static_cast<size_t>(at)];
         const double flux = std::abs(source.flux);
@@ -126,6 +139,9 @@ SourceGroups::SourceGroups(std::vector<PlacedSource> &sources, std::span<const G
         double &spot = in_small[static_cast<size_t>(at)][tiles.cell<small>(source)];
         spot += flux;
         group.densest = std::max(group.densest, spot);
+        double &around = in_wide[static_cast<size_t>(at)][tiles.wide_number(tile)];
+        around += flux;
+        group.wide_crowd = std::max(group.wide_crowd, around);
         if (group.is_galaxy) {
             const GalaxyShape &shape = shapes_[static_cast<size_t>(source.shape)];
             const double radius = shape.half_light_radius_arcsec / pixel_scale_arcsec_;

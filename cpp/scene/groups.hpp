@@ -28,7 +28,8 @@ struct SourceGroup {
     int64_t count = 0;
     double flux = 0; // of all, e-
     double brightest = 0;
-    double crowded = 0; // the largest flux in any square cell of `cell` native pixels
+    double crowded = 0;    // the largest flux in any square cell of `cell` native pixels
+    double wide_crowd = 0; // and of `wide_cell` ones
     // The largest flux whose spikes fall on each other: in any small cell; where several sources
     // share one, as in clusters, as much as `crowded`.
     double densest = 0;
@@ -37,7 +38,7 @@ struct SourceGroup {
     // highest Sersic index.
     double mean_square = 0, half_light = 0, index = 0;
 
-    static constexpr int64_t cell = 16;
+    static constexpr int64_t cell = 16, wide_cell = 256;
 };
 
 class SourceGroups {

@@ -5,8 +5,10 @@
 #include "scene/far_table.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
+#include <iterator>
 #include <numbers>
 #include <tuple>
 
@@ -40,9 +42,12 @@ double far_variation(std::span<const FarLight> at_places) {
 
 constexpr double safety_of_squares = 1.2;
 
+// Models that are tried; radii in native pixels.
+constexpr std::array model_eps{1e-2, 1e-3, 1e-4, 2.5e-5, 1e-5, 3e-6, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10};
+constexpr std::array model_radii{8.0, 15.0, 22.0, 27.0, 33.0, 40.0, 48.0, 58.0, 70.0, 101.0, 128.0};
+
 // Offers that another one beats in time and error are of no use at any price.
-using Offers = std::vector<Offer>;
-void add_useful(Offers &offers, const Offer &offer) {
+void add_useful(std::vector<Offer> &offers, const Offer &offer) {
     const auto beats = [](const Offer &a, const Offer &b) {
         return a.time_s <= b.time_s && a.error.local <= b.error.local &&
                a.error.mean <= b.error.mean;
@@ -228,19 +233,6 @@ void ScenePlan::choose_galaxy_cells(const SceneOptics &optics) {
         error /= galaxy_cells_;
 }
 
-void ScenePlan::collect_offers() {
-    alone_.assign(planned_.size(), {});
-    for (size_t g = 0; g < planned_.size(); ++g) {
-        const SourceGroup &group = planned_[g].group;
-        const Ways ways(group, colours_[static_cast<size_t>(group.colour)], budget_, image_);
-        ways.of_own({}, [&](const Offer &offer) { add_useful(alone_[g], offer); });
-        ways.of_fourier(cell_error_[g], [&](const Offer &offer) { add_useful(alone_[g], offer); });
-    }
-    shared_.assign(colours_.size(), {});
-    for (size_t colour = 0; colour < colours_.size(); ++colour)
-        collect_shared(colour);
-}
-
 // Tables that a colour may have.
 std::vector<SharedFarLight> ScenePlan::far_lights(size_t colour) const {
     const ColourFacts &facts = colours_[colour];
@@ -265,78 +257,95 @@ std::vector<SharedFarLight> ScenePlan::far_lights(size_t colour) const {
     return all;
 }
 
-void ScenePlan::collect_shared(size_t colour) {
-    const ColourFacts &facts = colours_[colour];
-    // Adds what ways(Ways, Take) takes for the groups of the colour.
-    const auto add = [&](std::vector<Offers> &useful, const auto &ways) {
-        for (size_t g = 0; g < planned_.size(); ++g)
-            if (planned_[g].group.colour == static_cast<int32_t>(colour))
-                ways(Ways(planned_[g].group, facts, budget_, image_),
-                     [&](const Offer &offer) { add_useful(useful[g], offer); });
-    };
-    std::vector<SharedFarLight> far_lights{{}}; // none
-    for (const SharedFarLight &far : this->far_lights(colour))
-        far_lights.push_back(far);
-    for (const SharedFarLight &far : far_lights) {
-        std::vector<Offers> own(planned_.size());
-        if (far.needed) {
-            add(own, [&](const Ways &ways, const Take &take) { ways.of_own(far, take); });
-            shared_[colour].push_back({{}, far, own});
-        }
-        for (const double eps :
-             {1e-2, 1e-3, 1e-4, 2.5e-5, 1e-5, 3e-6, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10}) {
-            std::vector<Offers> useful = own;
-            double before = 0;
-            for (const double radius :
-                 {8.0, 15.0, 22.0, 27.0, 33.0, 40.0, 48.0, 58.0, 70.0, 101.0, 128.0}) {
-                add(useful, [&](const Ways &ways, const Take &take) {
-                    ways.of_shared(eps, before, radius, {}, take);
-                    if (far.needed)
-                        ways.of_shared(eps, before, radius, far, take);
-                });
-                before = radius;
-                const double time = cost::shared_psf(radius, eps, facts.bandwidth, facts.varies);
-                shared_[colour].push_back({{true, eps, radius, time}, far, useful});
+void ScenePlan::collect_offers() {
+    std::vector<Ways> ways;
+    ways.reserve(planned_.size());
+    for (const PlannedGroup &planned : planned_)
+        ways.emplace_back(planned.group, colours_[static_cast<size_t>(planned.group.colour)],
+                          budget_, image_);
+    shared_.assign(colours_.size(), {});
+    for (size_t colour = 0; colour < colours_.size(); ++colour) {
+        const ColourFacts &facts = colours_[colour];
+        // What ask(Ways, group, Take) takes for the groups of the colour.
+        const auto offers = [&](const auto &ask) {
+            Offers useful(planned_.size());
+            for (size_t g = 0; g < planned_.size(); ++g)
+                if (planned_[g].group.colour == static_cast<int32_t>(colour))
+                    ask(ways[g], g, [&](const Offer &offer) { add_useful(useful[g], offer); });
+            return useful;
+        };
+        std::vector<SharedFarLight> far_lights{{}}; // none
+        std::ranges::copy(this->far_lights(colour), std::back_inserter(far_lights));
+        for (const SharedFarLight &far : far_lights) {
+            WithFar &with = shared_[colour].emplace_back();
+            with.far = far;
+            with.own = offers([&](const Ways &of, size_t g, const Take &take) {
+                of.of_own(far, take);
+                if (!far.needed)
+                    of.of_fourier(cell_error_[g], take);
+            });
+            for (const double eps : model_eps) {
+                double before = 0;
+                for (const double radius : model_radii) {
+                    const double time =
+                        cost::shared_psf(radius, eps, facts.bandwidth, facts.varies);
+                    with.models.push_back({{true, eps, radius, time},
+                                           offers([&](const Ways &of, size_t, const Take &take) {
+                                               of.of_shared(eps, before, radius, far, take);
+                                           })});
+                    before = radius;
+                }
             }
         }
     }
 }
 
-// What is best for a colour at a price of error, by the best shared model for it.
+// What is best for a colour at a price of error, by the best shared model and tables for it.
 void ScenePlan::settle_colour(int32_t colour, double price) {
     std::vector<size_t> of_colour;
     for (size_t g = 0; g < planned_.size(); ++g)
         if (planned_[g].group.colour == colour)
             of_colour.push_back(g);
-    std::vector<Best> without; // a shared model
-    for (const size_t g : of_colour) {
-        Best &best = without.emplace_back(price, budget_.error() / (2 * safety_of_squares));
-        for (const Offer &offer : alone_[g])
-            best.consider(offer);
-    }
     std::vector<Best> taken;
     SharedModel model;
     SharedFarLight far;
     double least = INFINITY;
-    const auto consider = [&](const Shared &shared) {
-        double total = shared.model.time_s + shared.far.time_s;
-        std::vector<Best> now = without;
-        for (size_t i = 0; i < of_colour.size(); ++i) {
-            if (!shared.by_group.empty())
-                for (const Offer &offer : shared.by_group[of_colour[i]])
-                    now[i].consider(offer);
-            total += now[i].total(now[i].offer());
-        }
+    const auto consider = [&](const Offers &offers, std::vector<Best> &best) {
+        for (size_t i = 0; i < of_colour.size(); ++i)
+            for (const Offer &offer : offers[of_colour[i]])
+                best[i].consider(offer);
+    };
+    const auto settle_for = [&](const std::vector<Best> &best, const SharedModel &of_model,
+                                const SharedFarLight &of_far) {
+        double total = of_model.time_s + of_far.time_s;
+        for (const Best &of_group : best)
+            total += of_group.total(of_group.offer());
         if (total < least) {
             least = total;
-            taken = std::move(now);
-            model = shared.model;
-            far = shared.far;
+            taken = best;
+            model = of_model;
+            far = of_far;
         }
     };
-    consider({});
-    for (const Shared &shared : shared_[static_cast<size_t>(colour)])
-        consider(shared);
+    const std::vector<WithFar> &all = shared_[static_cast<size_t>(colour)];
+    std::vector<Best> none(of_colour.size(),
+                           Best(price, budget_.error() / (2 * safety_of_squares)));
+    consider(all[0].own, none);
+    for (const WithFar &with : all) {
+        std::vector<Best> without = none; // a model
+        consider(with.own, without);
+        settle_for(without, {}, with.far);
+        std::vector<Best> best;
+        for (size_t m = 0; m < with.models.size(); ++m) {
+            const WithModel &of = with.models[m];
+            if (m == 0 || of.model.eps != with.models[m - 1].model.eps)
+                best = without;
+            // Stars need not have far light.
+            consider(all[0].models[m].offers, best);
+            consider(of.offers, best);
+            settle_for(best, of.model, with.far);
+        }
+    }
     models_[static_cast<size_t>(colour)] = model;
     far_[static_cast<size_t>(colour)] = far;
     for (size_t i = 0; i < of_colour.size(); ++i) {

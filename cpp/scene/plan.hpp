@@ -77,7 +77,6 @@ class ScenePlan {
     void learn_colours(const SceneOptics &optics);
     void choose_galaxy_cells(const SceneOptics &optics);
     void collect_offers();
-    void collect_shared(size_t colour);
     std::vector<SharedFarLight> far_lights(size_t colour) const;
     void settle(double price);
     void settle_colour(int32_t colour, double price);
@@ -90,14 +89,19 @@ class ScenePlan {
     std::unique_ptr<SourceGroups> groups_;
     std::vector<ColourFacts> colours_;
     std::vector<PlannedGroup> planned_;
-    std::vector<double> cell_error_;        // of groups of galaxies, by their PSF's place
-    std::vector<std::vector<Offer>> alone_; // by group: without a shared model
-    struct Shared {
+    std::vector<double> cell_error_; // of groups of galaxies, by their PSF's place
+    // What a colour's groups may share. Offers are by group.
+    using Offers = std::vector<std::vector<Offer>>;
+    struct WithModel {
         SharedModel model;
-        SharedFarLight far;
-        std::vector<std::vector<Offer>> by_group;
+        Offers offers; // that models of the same eps before it do not make
     };
-    std::vector<std::vector<Shared>> shared_; // by colour: what its groups may share
+    struct WithFar { // light from those tables, or none
+        SharedFarLight far;
+        Offers own;                    // without a model
+        std::vector<WithModel> models; // those of one eps after each other, by radius
+    };
+    std::vector<std::vector<WithFar>> shared_; // by colour; the first is without far light
     std::vector<SharedModel> models_;
     std::vector<SharedFarLight> far_; // by colour
     int galaxy_cells_ = 1;

@@ -115,7 +115,7 @@ template <class T> class Renderer {
         for (const PlannedGroup &g : plan_.groups())
             if (g.group.colour == static_cast<int32_t>(colour) && g.way.far > 0) {
                 floor = std::min(floor, below * g.way.far);
-                if (!g.way.own_far)
+                if (g.way.far_drawing != FarDrawing::own)
                     differing = std::max(differing, facts.far_varies * g.group.brightest);
             }
         if (!std::isfinite(floor))
@@ -235,35 +235,52 @@ template <class T> class Renderer {
             const Way *way;
             const FarTables *tables;
         };
-        std::vector<FarStar> stars, own;
+        std::vector<FarStar> stars;
         for (const PlacedSource &source : plan_.sources()) {
             const Way &way = plan_.group_of(source).way;
             if (way.far > 0 && source.flux != 0)
-                (way.own_far ? own : stars)
-                    .push_back({frame_.star(source), &source, &way,
-                                &*tables_[static_cast<size_t>(source.colour)]});
+                stars.push_back({frame_.star(source), &source, &way,
+                                 &*tables_[static_cast<size_t>(source.colour)]});
         }
         on_rows([&](int64_t first_row, int64_t last_row) {
             for (const auto &[star, source, way, tables] : stars)
-                tables->add(star, source->x, source->y, way->radius, way->far, image_, first_row,
-                            last_row);
-            for (const auto &[star, source, way, tables] : own)
-                tables->middle().add(star, way->radius, way->far, image_, first_row, last_row);
+                if (way->far_drawing == FarDrawing::own)
+                    tables->middle().add(star, way->radius, way->far, image_, first_row, last_row);
+                else
+                    tables->add(star, source->x, source->y, way->radius, way->far, image_,
+                                first_row, last_row);
         });
-        // How the far light of their places differs from that of the tables, and what is beyond.
-        for (const auto &[star, source, way, tables] : own) {
+        for (const auto &[star, source, way, tables] : stars) {
             const double floor = way->far * std::abs(star.flux);
-            const auto colour = static_cast<size_t>(source->colour);
-            FarLight(optics_.nearest(source->x, source->y), optics_.lights[colour],
-                     probe_settings(optics_.settings))
-                .add(star, way->radius, floor, image_, threads_);
-            const Window<T> within(star, tables->radius(), image_);
-            if (!within.part.empty())
-                plan_.colour(source->colour)
-                    .far_lights[0]
-                    .add({within.star.x, within.star.y, -star.flux}, way->radius, floor,
-                         within.part, threads_);
+            const ColourFacts &facts = plan_.colour(source->colour);
+            if (way->far_drawing == FarDrawing::nearest)
+                facts.far_lights[nearest_place(*source, facts.varies)].add(
+                    star, std::max(way->radius, tables->radius()), floor, image_, threads_);
+            if (way->far_drawing == FarDrawing::own)
+                draw_own_far(star, *source, way->radius, floor, *tables);
         }
+    }
+
+    // How the far light of a star's place differs from that of the tables, and what is beyond them.
+    void draw_own_far(const Star &star, const PlacedSource &source, double radius, double floor,
+                      const FarTables &tables) {
+        const Light &light = optics_.lights[static_cast<size_t>(source.colour)];
+        FarLight(optics_.nearest(source.x, source.y), light, probe_settings(optics_.settings))
+            .add(star, radius, floor, image_, threads_);
+        const Window<T> within(star, tables.radius(), image_);
+        if (!within.part.empty())
+            plan_.colour(source.colour)
+                .far_lights[0]
+                .add({within.star.x, within.star.y, -star.flux}, radius, floor, within.part,
+                     threads_);
+    }
+
+    size_t nearest_place(const PlacedSource &source, bool varies) const {
+        const auto places = FarTables::places(plan_.region(), varies);
+        const auto distance = [&source](const std::pair<double, double> &place) {
+            return std::hypot(place.first - source.x, place.second - source.y);
+        };
+        return static_cast<size_t>(std::ranges::min_element(places, {}, distance) - places.begin());
     }
 
     // Galaxies of one part of the detector after another; each part's share a PSF.

@@ -30,6 +30,9 @@ double of_far(double radius) {
 // place. Such differences are off by as much of what far light is off itself.
 constexpr double interpolated = 2e-4, mixed = 0.02, of_differences = 0.05;
 
+// Of what light differs from that of the middle at most, the nearest of 3 x 3 places is off.
+constexpr double off_nearest = 0.6;
+
 // PSFs of one place are some share of the light off those of others near by.
 constexpr double differs = 0.1;
 
@@ -55,6 +58,9 @@ std::vector<double> radii(double largest) {
     all.push_back(largest);
     return all;
 }
+
+// Rings about a pixel that sources' light comes from, each that much farther out than the one before.
+constexpr double next_ring = 1.1;
 
 } // namespace
 
@@ -83,6 +89,48 @@ double psf_error(const SourceGroup &group, const ColourFacts &colour, const Scen
            in_noise(point_like, in_core);
 }
 
+// What scatters in a pixel is what single sources leave out there, those that stand beyond a radius:
+// no more of them anywhere than in the densest parts. The nearest count most.
+Ways::Ways(const SourceGroup &group, const ColourFacts &colour, const SceneBudget &budget,
+           const SceneImage &image)
+    : group_(group), colour_(colour), budget_(budget), image_(image) {
+    struct Ring {
+        double radius, flux,
+            squared; // to the outer border; at most; of the light of a source there
+    };
+    std::vector<Ring> rings;
+    constexpr auto in_cell = static_cast<double>(SourceGroup::cell * SourceGroup::cell);
+    double inner = 1;
+    while (inner < FaintLight::reach) {
+        const double outer = next_ring * inner, light = colour.profile.mean_at(inner);
+        rings.push_back(
+            {outer, group.crowded / in_cell * 4 * (outer * outer - inner * inner), light * light});
+        inner = outer;
+    }
+    constexpr double deviations = 2; // of the densest place
+    for (size_t first = 0; first < rings.size(); ++first) {
+        double flux = 0, squares = 0;
+        for (size_t i = first; i < rings.size(); ++i) {
+            const Ring &ring = rings[i];
+            const double here = std::clamp(flux_within(ring.radius) - flux, 0.0, ring.flux);
+            flux += here;
+            squares += here * ring.squared;
+        }
+        scatter_.push_back(deviations * std::sqrt(group.brightest * squares));
+    }
+}
+
+// Of sources of the group, at most so far from a pixel along both axes.
+double Ways::flux_within(double radius) const {
+    const double cells = 2 * radius / static_cast<double>(SourceGroup::wide_cell) + 1;
+    return std::min(group_.flux, group_.wide_crowd * cells * cells);
+}
+
+double Ways::scatter_beyond(double radius) const {
+    const double ring = std::log(std::max(radius + 1, 1.0)) / std::log(next_ring);
+    return scatter_[std::min(static_cast<size_t>(ring), scatter_.size() - 1)];
+}
+
 double Ways::pixels(double radius) const {
     const auto n = static_cast<double>(image_.oversampling);
     return std::min(2 * radius + 1, image_.native_x()) *
@@ -109,17 +157,7 @@ PixelError Ways::left_out(const Way &way, double local, double from, double cut)
     const double light = mean(colour_.profile.beyond(from), cut);
     if (!way.is_smooth_beyond())
         return {local, light};
-    // What scatters is what many sources that are not in that cell leave out here.
-    double squares = 0;
-    double r = from + 1;
-    while (r <= FaintLight::reach) {
-        squares += std::pow(colour_.profile.mean_at(r), 2) * 8 * r * 0.1 * r;
-        r *= 1.1;
-    }
-    constexpr double deviations = 2; // of the densest cell
-    const double scatter =
-        deviations * std::sqrt(group_.crowded * group_.brightest * squares) / SourceGroup::cell;
-    return {std::hypot(local, scatter), LightProfile::mean_varies * light};
+    return {std::hypot(local, scatter_beyond(from)), LightProfile::mean_varies * light};
 }
 
 void Ways::leave_far(const Way &way, double time_s, const Take &take) const {
@@ -143,16 +181,22 @@ double Ways::far_off(const SharedFarLight &far, const Way &way) const {
     const auto of_edges = [this](double r) {
         return of_far(r) * colour_.far->error(r, group_.brightest, budget_.variance);
     };
-    const double brightest = colour_.far->brightest_beyond(way.radius);
-    const double noise = std::sqrt(1 + group_.brightest * brightest / budget_.variance);
+    const auto of_light = [this](double share, double r) {
+        const double brightest = colour_.far->brightest_beyond(r);
+        return share * brightest / std::sqrt(1 + group_.brightest * brightest / budget_.variance);
+    };
+    const bool differs_by_place = way.far_drawing != FarDrawing::own;
     const double of_tables =
-        (interpolated + (way.own_far ? 0 : mixed * std::pow(colour_.far_varies, 1.5))) * brightest /
-        noise;
+        of_light(interpolated + (differs_by_place ? mixed * std::pow(colour_.far_varies, 1.5) : 0),
+                 way.radius);
+    const double beyond = way.far_drawing == FarDrawing::nearest
+                              ? of_light(off_nearest * colour_.far_varies, far.radius)
+                              : 0;
     if (far.exact_radius <= way.radius)
-        return of_edges(way.radius) + of_tables;
+        return std::max(of_edges(way.radius), beyond) + of_tables;
     const double exact = of_exact * far.exact_eps * colour_.profile.peak();
     const double differences = colour_.varies ? of_differences * of_edges(way.radius) : 0;
-    return std::max(differences, of_edges(far.exact_radius)) + of_tables + exact;
+    return std::max({differences, of_edges(far.exact_radius), beyond}) + of_tables + exact;
 }
 
 void Ways::add_far(const Way &way, double time_s, const SharedFarLight &far,
@@ -161,9 +205,9 @@ void Ways::add_far(const Way &way, double time_s, const SharedFarLight &far,
     if (way.radius < reach.nearest() + 1 || way.radius >= group_.reach)
         return;
     const double of_psf = psf_error(group_, colour_, budget_, way);
-    for (const bool own_far : {false, true}) {
+    for (const FarDrawing source : {FarDrawing::tables, FarDrawing::nearest, FarDrawing::own}) {
         Way with = way;
-        with.own_far = own_far;
+        with.far_drawing = source;
         const double off = far_off(far, with);
         for (const FarReach::Step &step : reach.steps()) {
             if (group_.densest * step.floor > budget_.error())
@@ -172,18 +216,23 @@ void Ways::add_far(const Way &way, double time_s, const SharedFarLight &far,
                 break;
             // A table ends somewhere.
             const double tables_end = std::min({step.radius, far.radius, group_.reach});
-            const double end = own_far ? std::min(step.radius, group_.reach) : tables_end;
+            const bool goes_on = source != FarDrawing::tables;
+            const double end = goes_on ? std::min(step.radius, group_.reach) : tables_end;
+            if (goes_on && end <= tables_end)
+                continue;
             const double left =
                 std::max(step.floor, end < step.radius ? reach.brightest_beyond(end) : 0);
             const double from = std::min(std::max(step.halo, way.radius), end);
             if (end <= way.radius || colour_.profile.beyond(from) > budget_.flux)
                 continue;
-            const PixelError error = left_out(way, group_.densest * (left + off), from, left);
-            with.far = step.floor;
             double time = cost::far_blocks(step.pixels * tables_end / step.radius);
-            if (own_far)
+            if (source == FarDrawing::nearest)
+                time += cost::far_light(pixels(end));
+            if (source == FarDrawing::own)
                 time += cost::making_far_light + cost::far_light(pixels(end)) +
                         cost::far_light(pixels(tables_end));
+            const PixelError error = left_out(way, group_.densest * (left + off), from, left);
+            with.far = step.floor;
             take({with, time_s + count() * time, {error.local + of_psf, error.mean}});
         }
     }
@@ -211,6 +260,8 @@ void Ways::of_shared(double eps, double from, double to, const SharedFarLight &f
         Way way{Drawing::shared, 0, eps, peak * share};
         if (share > 4 * finest && psf_error(group_, colour_, budget_, way) > budget_.error())
             continue;
+        if (4 * group_.densest * way.left_out < negligible * budget_.error())
+            break;
         for (const double radius : radii(std::min(to, group_.reach))) {
             if (radius <= from)
                 continue;

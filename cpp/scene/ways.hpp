@@ -30,13 +30,20 @@ enum class Drawing {
     fourier_own, // the same with PSFs made for each
 };
 
+// Where far light comes from.
+enum class FarDrawing {
+    tables, // those that all share, as far as they reach
+    nearest, // beyond them, from the pupil's edges at the nearest of the places that they are made of
+    own,     // from the edges at the star's own place, but for what tables know better
+};
+
 struct Way {
     Drawing drawing = Drawing::shared;
-    double radius = 0;    // of the stamp, native pixels
-    double eps = 0;       // of the PSF, of its peak; of galaxies, of a pixel as a share of the flux
-    double left_out = 0;  // by the shared model: largest share of the light in a pixel
-    double far = 0;       // light beyond the stamp is drawn down to that share; 0: none is
-    bool own_far = false; // it is that of the star's own place, and goes on beyond shared tables
+    double radius = 0;   // of the stamp, native pixels
+    double eps = 0;      // of the PSF, of its peak; of galaxies, of a pixel as a share of the flux
+    double left_out = 0; // by the shared model: largest share of the light in a pixel
+    double far = 0;      // light beyond the stamp is drawn down to that share; 0: none is
+    FarDrawing far_drawing = FarDrawing::tables;
 
     // What is left out is drawn all the same, as smooth light.
     bool is_smooth_beyond() const { return drawing == Drawing::shared; }
@@ -94,8 +101,7 @@ double psf_error(const SourceGroup &group, const ColourFacts &colour, const Scen
 class Ways {
   public:
     Ways(const SourceGroup &group, const ColourFacts &colour, const SceneBudget &budget,
-         const SceneImage &image)
-        : group_(group), colour_(colour), budget_(budget), image_(image) {}
+         const SceneImage &image);
 
     // As stars, with the detector's PSFs made to `eps`, on stamps of radii above `from` up to `to`,
     // or with PSFs of their own; with far light beyond the stamps, if there are tables of it, else
@@ -113,6 +119,8 @@ class Ways {
     double shared_stamps(double radius, double left_out) const; // seconds
     double cut(double radius) const;
     double mean(double light, double cut) const;
+    double flux_within(double radius) const;
+    double scatter_beyond(double radius) const;
     PixelError left_out(const Way &way, double local, double from, double cut) const;
     double far_off(const SharedFarLight &far, const Way &way) const;
     // What is beyond the stamps: far light, if there are tables of it.
@@ -125,6 +133,7 @@ class Ways {
     const ColourFacts &colour_;
     const SceneBudget &budget_;
     const SceneImage &image_;
+    std::vector<double> scatter_; // beyond the rings of ways.cpp
 };
 
 } // namespace wfpsf
