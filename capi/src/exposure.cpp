@@ -55,6 +55,7 @@ wfpsf_status wfpsf_exposure_create(const wfpsf_instrument *instrument,
                                   .zero_flux = zero_flux_of(sources, i, band, options),
                                   .background = option(options, WFPSF_OPTION_SCENE_BACKGROUND),
                                   .budget = budget_of(i, options),
+                                  .reuse = scene_reuse(options),
                                   .seed = static_cast<uint64_t>(option(options, WFPSF_OPTION_SEED)),
                                   .number = static_cast<uint32_t>(number),
                                   .with_noise = flag(options, WFPSF_OPTION_NOISE)};

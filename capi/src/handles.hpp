@@ -100,6 +100,10 @@ struct wfpsf_catalogue {
     wfpsf::Catalogue catalogue;
 };
 
+struct wfpsf_scene_store {
+    std::shared_ptr<wfpsf::SceneStore> store; // options and scenes share it
+};
+
 struct wfpsf_scene {
     wfpsf::SceneOptics optics;
     wfpsf::ScenePlan plan;
@@ -134,6 +138,7 @@ std::span<const double> checked_zernikes(int64_t count, const double *coefficien
 
 // The optical path difference to add, or none.
 std::shared_ptr<const OpdMap> opd_map(const wfpsf_options *options);
+SceneReuse scene_reuse(const wfpsf_options *options);
 
 // A caller's image of the pupil: its sampling must be sound, and its pixels are copied.
 void check_pupil_sampling(const char *scale_name, double scale_m, double axis_x, double axis_y);

@@ -35,6 +35,7 @@ struct wfpsf_options {
     std::array<double, option_count> values;
     std::vector<double> zernikes;
     std::shared_ptr<const wfpsf::OpdMap> opd_map;
+    std::shared_ptr<wfpsf::SceneStore> scene_store;
     wfpsf_progress progress;
     void *progress_user;
 };
@@ -98,6 +99,12 @@ Manners manners_of(const wfpsf_options *options) {
 
 std::shared_ptr<const OpdMap> opd_map(const wfpsf_options *options) {
     return options ? options->opd_map : nullptr;
+}
+
+SceneReuse scene_reuse(const wfpsf_options *options) {
+    if (!options || !options->scene_store)
+        return {};
+    return {options->scene_store, option(options, WFPSF_OPTION_SCENE_EXPOSURES)};
 }
 
 void check_pupil_sampling(const char *scale_name, double scale_m, double axis_x, double axis_y) {
@@ -174,6 +181,13 @@ wfpsf_status wfpsf_options_set_opd(wfpsf_options *options, const wfpsf_image *ma
         check_pupil_sampling("scale_m", scale_m, axis_x, axis_y);
         const Plane<double> samples = copy_of(*map);
         options->opd_map = std::make_shared<OpdMap>(samples.view(), scale_m, axis_x, axis_y);
+    });
+}
+
+wfpsf_status wfpsf_options_set_scene_store(wfpsf_options *options, const wfpsf_scene_store *store) {
+    return guarded([&] {
+        require_pointer(options, "options");
+        options->scene_store = store ? store->store : nullptr;
     });
 }
 

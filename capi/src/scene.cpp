@@ -96,6 +96,26 @@ wfpsf_status certify_scene(double error, double allowed) {
 
 } // namespace
 
+wfpsf_status wfpsf_scene_store_create(wfpsf_scene_store **out) {
+    return guarded([&] {
+        require_pointer(out, "out");
+        *out = nullptr;
+        *out = new wfpsf_scene_store{std::make_shared<SceneStore>()};
+    });
+}
+
+void wfpsf_scene_store_destroy(wfpsf_scene_store *store) {
+    delete store;
+}
+
+wfpsf_status wfpsf_scene_store_memory(const wfpsf_scene_store *store, int64_t *bytes) {
+    return guarded([&] {
+        require_pointer(store, "store");
+        require_pointer(bytes, "bytes");
+        *bytes = store->store->memory();
+    });
+}
+
 wfpsf_status wfpsf_scene_create(const wfpsf_instrument *instrument,
                                 const wfpsf_observation *observation, const char *band, int32_t sca,
                                 const wfpsf_catalogue *catalogue, const wfpsf_image *image,
@@ -121,7 +141,8 @@ wfpsf_status wfpsf_scene_create(const wfpsf_instrument *instrument,
         std::vector<PlacedSource> placed =
             sources.placed(observation ? &observation->observation : nullptr, sca, zero_flux);
         ScenePlan plan(optics, std::move(placed), sources.shapes(), budget_of(i, options),
-                       {x0, y0, target.nx(), target.ny(), target.oversampling()});
+                       {x0, y0, target.nx(), target.ny(), target.oversampling()},
+                       scene_reuse(options));
         auto made = std::make_unique<wfpsf_scene>(
             wfpsf_scene{std::move(optics), std::move(plan), sources.size()});
         const ScenePlan &planned = made->plan;

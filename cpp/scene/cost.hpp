@@ -49,7 +49,8 @@ inline double shared_stamp(double width, double left_out) {
 
 // What so many stars take beside, to get the PSFs of their places: cells, or for each its own.
 inline double places(double stars, double width, double left_out) {
-    constexpr double one = 3e-5;
+    const double one = 2.5e-5 + 0.4e-9 * std::pow(digits(left_out), 3) * width * width *
+                                    std::sqrt(60 / std::max(60.0, width));
     const double cells = 64 * std::sqrt(1.5e-5 / left_out);
     return std::min(stars * one, cells * (1e-4 + 1.1e-7 * width * width));
 }

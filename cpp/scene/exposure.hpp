@@ -21,6 +21,7 @@ struct ExposureSettings {
     double zero_flux;     // e- from AB magnitude 0
     double background;    // mean, e- a pixel
     SceneBudget budget;
+    SceneReuse reuse;
     uint64_t seed;
     uint32_t number; // of the exposure: another one has other noise
     bool with_noise;

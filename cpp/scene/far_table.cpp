@@ -258,6 +258,13 @@ FarTables::FarTables(std::span<const FarLight> at_places, const Psf *exact, cons
                                   radius);
 }
 
+int64_t FarTables::memory() const {
+    int64_t bytes = middle_.memory();
+    for (const FarTable &difference : differences_)
+        bytes += difference.memory();
+    return bytes;
+}
+
 template <class T>
 void FarTables::add(const Star &star, double x, double y, double inner, double floor, View<T> image,
                     int64_t first_row, int64_t last_row) const {

@@ -33,6 +33,7 @@ class FarTable {
   public:
     FarTable(SampledLight light, double radius);
     double radius() const { return radius_; }
+    int64_t memory() const { return light_.nx() * light_.ny() * int64_t{sizeof(float)}; }
 
     // The share of the light that add() gives to pixels at most `within` from the star along both
     // axes, about.
@@ -83,6 +84,7 @@ class FarTables {
     void add(const Star &star, double x, double y, double inner, double floor, View<T> image,
              int64_t first_row, int64_t last_row) const;
     const FarTable &middle() const { return middle_; } // of the first place
+    int64_t memory() const;                            // bytes held
 
   private:
     Region image_;

@@ -3,6 +3,7 @@
 
 #include "scene/cost.hpp"
 #include "scene/far_table.hpp"
+#include "scene/fingerprint.hpp"
 
 #include <algorithm>
 #include <array>
@@ -113,6 +114,30 @@ double after_blur(const SourceGroup &group) {
     return group.index <= 1.5 ? 1 / (1 + std::pow(radius, 4)) : 1 / (1 + radius);
 }
 
+// Of what light makes there, whatever brought it about.
+uint64_t key_of(const SceneOptics &optics, const Light &light, const SceneImage &image) {
+    Fingerprint print;
+    const Region &region = optics.region;
+    for (const double value : {region.x0, region.y0, region.x1, region.y1, image.x0, image.y0,
+                               image.native_x(), image.native_y()})
+        print.add(value);
+    PsfSettings settings = optics.settings;
+    settings.eps = 1e-3;
+    settings.radius = 8;
+    constexpr int64_t size = 17;
+    for (const auto &[u, v] :
+         {std::pair(0.5, 0.5), std::pair(0.1, 0.2), std::pair(0.9, 0.3), std::pair(0.3, 0.9)}) {
+        const Optics here =
+            optics.nearest(std::lerp(region.x0, region.x1, u), std::lerp(region.y0, region.y1, v));
+        Plane<double> image_there(size, size);
+        make_psfs(here, {&light, 1}, settings)[0].draw({8, 8, 1}, 1, image_there.view());
+        for (int64_t y = 0; y < size; ++y)
+            for (int64_t x = 0; x < size; ++x)
+                print.add(image_there(x, y));
+    }
+    return print.value();
+}
+
 const char *name_of(Drawing drawing) {
     switch (drawing) {
     case Drawing::shared:
@@ -154,8 +179,8 @@ Optics SceneOptics::middle() const {
 
 ScenePlan::ScenePlan(const SceneOptics &optics, std::vector<PlacedSource> sources,
                      std::span<const GalaxyShape> shapes, const SceneBudget &budget,
-                     const SceneImage &image)
-    : budget_(budget), image_(image), sources_(std::move(sources)),
+                     const SceneImage &image, const SceneReuse &reuse)
+    : budget_(budget), image_(image), reuse_(reuse), sources_(std::move(sources)),
       shapes_(shapes.begin(), shapes.end()) {
     groups_ = std::make_unique<SourceGroups>(sources_, shapes_, optics.pixel_scale_arcsec, image);
     for (const SourceGroup &group : groups_->all())
@@ -166,41 +191,62 @@ ScenePlan::ScenePlan(const SceneOptics &optics, std::vector<PlacedSource> source
 }
 
 void ScenePlan::learn_colours(const SceneOptics &optics) {
-    const Optics middle = optics.middle();
     for (size_t c = 0; c < optics.lights.size(); ++c) {
-        PsfSettings settings = probe_settings(optics.settings);
         const Light &light = optics.lights[c];
-        ColourFacts &facts = colours_.emplace_back();
+        Colour &colour = colours_.emplace_back();
+        if (reuse_.store) {
+            colour.key = key_of(optics, light, image_);
+            colour.kept = reuse_.store->find(colour.key);
+        }
         double brightest = 0;
         for (const PlannedGroup &planned : planned_)
             if (planned.group.colour == static_cast<int32_t>(c))
                 brightest = std::max(brightest, planned.group.brightest);
-        // Bright stars are seen farther; far light is known only if it matters.
-        const auto matters_beyond = [&] {
-            facts.profile = LightProfile(make_psfs(middle, {&light, 1}, settings)[0]);
-            return brightest * facts.profile.brightest_beyond(facts.profile.seen()) >
-                   0.5 * budget_.error();
-        };
-        bool is_bright = matters_beyond();
-        if (is_bright) {
-            settings.radius = 64;
-            is_bright = matters_beyond();
-        }
-        facts.bandwidth = bandwidth_of(light);
-        facts.varies = optics.varies;
-        if (!is_bright)
-            continue;
-        for (const auto &[x, y] : FarTables::places(region(), optics.varies))
-            if (auto there = far_light_of(optics.nearest(x, y), light, settings))
-                facts.far_lights.push_back(std::move(*there));
-        if (facts.far_lights.empty())
-            continue;
-        const FarLight &far = facts.far_lights[0];
-        const double from = 0.75 * facts.profile.seen();
-        facts.far.emplace(
-            far, std::min(1.0, facts.profile.brightest_beyond(from) / far.brightest_beyond(from)));
-        facts.far_varies = far_variation(facts.far_lights);
+        const auto known = colour.kept.facts;
+        colour.kept.facts = facts_of(optics, light, brightest, known);
+        if (reuse_.store && colour.kept.facts != known)
+            reuse_.store->keep(colour.key, colour.kept.facts);
     }
+}
+
+// Bright stars are seen farther; far light is known only if it matters.
+std::shared_ptr<const ColourFacts>
+ScenePlan::facts_of(const SceneOptics &optics, const Light &light, double brightest,
+                    std::shared_ptr<const ColourFacts> known) const {
+    const auto matters_beyond = [&](const LightProfile &profile) {
+        return brightest * profile.brightest_beyond(profile.seen()) > 0.5 * budget_.error();
+    };
+    if (known && (known->is_complete || !matters_beyond(known->profile)))
+        return known;
+    const Optics middle = optics.middle();
+    PsfSettings settings = probe_settings(optics.settings);
+    auto made = std::make_shared<ColourFacts>();
+    ColourFacts &facts = *made;
+    const auto look = [&] {
+        facts.profile = LightProfile(make_psfs(middle, {&light, 1}, settings)[0]);
+        return matters_beyond(facts.profile);
+    };
+    bool is_bright = look();
+    if (is_bright) {
+        settings.radius = 64;
+        is_bright = look();
+    }
+    facts.bandwidth = bandwidth_of(light);
+    facts.varies = optics.varies;
+    if (!is_bright)
+        return made;
+    facts.is_complete = true;
+    for (const auto &[x, y] : FarTables::places(region(), optics.varies))
+        if (auto there = far_light_of(optics.nearest(x, y), light, settings))
+            facts.far_lights.push_back(std::move(*there));
+    if (facts.far_lights.empty())
+        return made;
+    const FarLight &far = facts.far_lights[0];
+    const double from = 0.75 * facts.profile.seen();
+    facts.far.emplace(
+        far, std::min(1.0, facts.profile.brightest_beyond(from) / far.brightest_beyond(from)));
+    facts.far_varies = far_variation(facts.far_lights);
+    return made;
 }
 
 Region ScenePlan::region() const {
@@ -234,50 +280,90 @@ void ScenePlan::choose_galaxy_cells(const SceneOptics &optics) {
 }
 
 // Tables that a colour may have.
-std::vector<SharedFarLight> ScenePlan::far_lights(size_t colour) const {
-    const ColourFacts &facts = colours_[colour];
+std::vector<SharedFarLight> ScenePlan::far_lights(int32_t colour) const {
+    const ColourFacts &facts = this->colour(colour);
     std::vector<SharedFarLight> all;
     if (!facts.far)
         return all;
     double brightest = 0;
     for (const PlannedGroup &planned : planned_)
-        if (planned.group.colour == static_cast<int32_t>(colour))
+        if (planned.group.colour == colour)
             brightest = std::max(brightest, planned.group.densest);
     const double eps = exact_far_eps(brightest, facts, budget_);
+    const KeptPsfs there = kept(colour);
+    const double scenes = there.tables ? 1 : reuse_.scenes; // as for models
     // As far out as exact light may be of use.
     for (const double exact : {0.0, 48.0, 64.0, 96.0, 128.0, 192.0, 256.0, 362.0, 512.0}) {
-        const double radius = std::max(exact, 256.0);
+        SharedFarLight &far = all.emplace_back();
+        far.needed = true;
+        far.exact_radius = exact;
+        far.exact_eps = eps;
+        far.radius = std::max(exact, 256.0);
         const double time = exact > 0 ? cost::psf(exact, eps, facts.bandwidth) : 0;
-        all.push_back({true, exact, eps, radius, cost::far_tables(radius, facts.varies) + time});
+        far.time_s = (cost::far_tables(far.radius, facts.varies) + time) / scenes;
         constexpr double little = 0.1; // of the budget
         if (brightest * facts.far->error(exact, brightest, budget_.variance) <
             little * budget_.error())
             break;
     }
+    if (there.tables) {
+        all.push_back(there.far);
+        all.back().time_s = 0;
+    }
     return all;
+}
+
+// What is made anew beside something that is there must save its time at once: else scenes in turn
+// would make it for each other.
+double ScenePlan::time_of(const SharedModel &model, int32_t colour) const {
+    const KeptPsfs there = kept(colour);
+    if (there.psf && there.model.eps == model.eps && there.model.radius == model.radius)
+        return 0;
+    const ColourFacts &facts = this->colour(colour);
+    const double time = cost::shared_psf(model.radius, model.eps, facts.bandwidth, facts.varies);
+    return there.psf ? time : time / reuse_.scenes;
+}
+
+// Finer ones are of no use, and are not there.
+double ScenePlan::finest_model(int32_t colour) const {
+    constexpr double negligible = 0.01; // of the budget
+    const KeptPsfs there = kept(colour);
+    for (const double eps : model_eps) {
+        const auto error = [&](const SourceGroup &group, double of) {
+            return psf_error(group, this->colour(colour), budget_,
+                             {.drawing = Drawing::shared, .eps = of});
+        };
+        double most = 0;
+        for (const PlannedGroup &planned : planned_)
+            if (planned.group.colour == colour)
+                most = std::max(most, error(planned.group, eps) - error(planned.group, 0));
+        if (most < negligible * budget_.error() && !(there.psf && there.model.eps < eps))
+            return eps;
+    }
+    return model_eps.back();
 }
 
 void ScenePlan::collect_offers() {
     std::vector<Ways> ways;
     ways.reserve(planned_.size());
     for (const PlannedGroup &planned : planned_)
-        ways.emplace_back(planned.group, colours_[static_cast<size_t>(planned.group.colour)],
-                          budget_, image_);
+        ways.emplace_back(planned.group, colour(planned.group.colour), budget_, image_);
     shared_.assign(colours_.size(), {});
-    for (size_t colour = 0; colour < colours_.size(); ++colour) {
-        const ColourFacts &facts = colours_[colour];
+    for (size_t c = 0; c < colours_.size(); ++c) {
+        const auto colour = static_cast<int32_t>(c);
         // What ask(Ways, group, Take) takes for the groups of the colour.
         const auto offers = [&](const auto &ask) {
             Offers useful(planned_.size());
             for (size_t g = 0; g < planned_.size(); ++g)
-                if (planned_[g].group.colour == static_cast<int32_t>(colour))
+                if (planned_[g].group.colour == colour)
                     ask(ways[g], g, [&](const Offer &offer) { add_useful(useful[g], offer); });
             return useful;
         };
+        const double finest = finest_model(colour);
         std::vector<SharedFarLight> far_lights{{}}; // none
         std::ranges::copy(this->far_lights(colour), std::back_inserter(far_lights));
         for (const SharedFarLight &far : far_lights) {
-            WithFar &with = shared_[colour].emplace_back();
+            WithFar &with = shared_[c].emplace_back();
             with.far = far;
             with.own = offers([&](const Ways &of, size_t g, const Take &take) {
                 of.of_own(far, take);
@@ -287,14 +373,16 @@ void ScenePlan::collect_offers() {
             for (const double eps : model_eps) {
                 double before = 0;
                 for (const double radius : model_radii) {
-                    const double time =
-                        cost::shared_psf(radius, eps, facts.bandwidth, facts.varies);
-                    with.models.push_back({{true, eps, radius, time},
-                                           offers([&](const Ways &of, size_t, const Take &take) {
-                                               of.of_shared(eps, before, radius, far, take);
-                                           })});
+                    SharedModel model{true, eps, radius};
+                    model.time_s = time_of(model, colour);
+                    with.models.push_back(
+                        {model, offers([&](const Ways &of, size_t, const Take &take) {
+                             of.of_shared(eps, before, radius, far, take);
+                         })});
                     before = radius;
                 }
+                if (eps == finest)
+                    break;
             }
         }
     }

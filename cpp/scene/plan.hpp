@@ -5,6 +5,7 @@
 #pragma once
 
 #include "optics/varying_psf.hpp"
+#include "scene/scene_store.hpp"
 #include "scene/ways.hpp"
 
 #include <cstdint>
@@ -46,7 +47,7 @@ class ScenePlan {
   public:
     ScenePlan(const SceneOptics &optics, std::vector<PlacedSource> sources,
               std::span<const GalaxyShape> shapes, const SceneBudget &budget,
-              const SceneImage &image);
+              const SceneImage &image, const SceneReuse &reuse = {});
 
     const std::vector<PlacedSource> &sources() const { return sources_; } // as they are drawn
     const std::vector<GalaxyShape> &shapes() const { return shapes_; }
@@ -59,8 +60,12 @@ class ScenePlan {
     const std::vector<SharedModel> &models() const { return models_; }
     const std::vector<SharedFarLight> &far() const { return far_; }
     const ColourFacts &colour(int32_t colour) const {
-        return colours_[static_cast<size_t>(colour)];
+        return *colours_[static_cast<size_t>(colour)].kept.facts;
     }
+    // What is there already.
+    KeptPsfs kept(int32_t colour) const { return colours_[static_cast<size_t>(colour)].kept; }
+    uint64_t key(int32_t colour) const { return colours_[static_cast<size_t>(colour)].key; }
+    const SceneReuse &reuse() const { return reuse_; }
     Region region() const; // of the image
     // It is cut into as many parts along each axis whose galaxies share a PSF.
     int galaxy_cells() const { return galaxy_cells_; }
@@ -74,20 +79,30 @@ class ScenePlan {
     std::string text() const;
 
   private:
+    struct Colour {
+        uint64_t key = 0; // of what is kept of it
+        KeptPsfs kept;
+    };
     void learn_colours(const SceneOptics &optics);
+    std::shared_ptr<const ColourFacts> facts_of(const SceneOptics &optics, const Light &light,
+                                                double brightest,
+                                                std::shared_ptr<const ColourFacts> known) const;
     void choose_galaxy_cells(const SceneOptics &optics);
     void collect_offers();
-    std::vector<SharedFarLight> far_lights(size_t colour) const;
+    std::vector<SharedFarLight> far_lights(int32_t colour) const;
+    double time_of(const SharedModel &model, int32_t colour) const;
+    double finest_model(int32_t colour) const;
     void settle(double price);
     void settle_colour(int32_t colour, double price);
     void choose();
 
     SceneBudget budget_;
     SceneImage image_;
+    SceneReuse reuse_;
     std::vector<PlacedSource> sources_;
     std::vector<GalaxyShape> shapes_;
     std::unique_ptr<SourceGroups> groups_;
-    std::vector<ColourFacts> colours_;
+    std::vector<Colour> colours_;
     std::vector<PlannedGroup> planned_;
     std::vector<double> cell_error_; // of groups of galaxies, by their PSF's place
     // What a colour's groups may share. Offers are by group.

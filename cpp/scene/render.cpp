@@ -89,50 +89,78 @@ template <class T> class Renderer {
   private:
     void make_models() {
         const Clock clock;
-        for (size_t colour = 0; colour < models_.size(); ++colour) {
-            const SharedModel &model = plan_.models()[colour];
-            const Light &light = optics_.lights[colour];
-            if (model.needed) {
-                models_[colour] = std::make_unique<VaryingPsf>(
-                    optics_.at, optics_.varies, light, settings(model.eps, model.radius),
-                    optics_.region,
-                    Manners{manners_.progress.between(0, 0.2), manners_.memory_limit});
-                report_.exact_psfs += models_[colour]->exact_psfs();
-            }
-            make_far_tables(colour);
+        for (size_t c = 0; c < models_.size(); ++c) {
+            const auto colour = static_cast<int32_t>(c);
+            if (plan_.models()[c].needed)
+                models_[c] = model_of(colour);
+            tables_[c] = tables_of(colour);
         }
         report_.models_s = clock.seconds();
     }
 
-    // Down to the faintest that any group draws.
-    void make_far_tables(size_t colour) {
-        const SharedFarLight &far = plan_.far()[colour];
-        if (!far.needed)
-            return;
-        constexpr double below = 0.1; // light that sums of it must not count
-        const ColourFacts &facts = plan_.colour(static_cast<int32_t>(colour));
-        double floor = INFINITY, differing = 0;
+    // What was kept before the plan was made, or since.
+    std::vector<KeptPsfs> kept(int32_t colour) const {
+        std::vector<KeptPsfs> all{plan_.kept(colour)};
+        if (plan_.reuse().store)
+            all.push_back(plan_.reuse().store->find(plan_.key(colour)));
+        return all;
+    }
+
+    std::shared_ptr<const VaryingPsf> model_of(int32_t colour) {
+        const SharedModel &model = plan_.models()[static_cast<size_t>(colour)];
+        for (const KeptPsfs &there : kept(colour))
+            if (there.psf && there.model.eps == model.eps && there.model.radius == model.radius)
+                return there.psf;
+        auto made = std::make_shared<VaryingPsf>(
+            optics_.at, optics_.varies, optics_.lights[static_cast<size_t>(colour)],
+            settings(model.eps, model.radius), optics_.region,
+            Manners{manners_.progress.between(0, 0.2), manners_.memory_limit});
+        report_.exact_psfs += made->exact_psfs();
+        if (plan_.reuse().store)
+            plan_.reuse().store->keep(plan_.key(colour), model, made);
+        return made;
+    }
+
+    std::shared_ptr<const FarTables> tables_of(int32_t colour) {
+        SharedFarLight far = plan_.far()[static_cast<size_t>(colour)];
+        const ColourFacts &facts = plan_.colour(colour);
+        double floor = INFINITY, brightest = 0;
         for (const PlannedGroup &g : plan_.groups())
-            if (g.group.colour == static_cast<int32_t>(colour) && g.way.far > 0) {
-                floor = std::min(floor, below * g.way.far);
+            if (g.group.colour == colour && g.way.far > 0) {
+                floor = std::min(floor, g.way.far);
                 if (g.way.far_drawing != FarDrawing::own)
-                    differing = std::max(differing, facts.far_varies * g.group.brightest);
+                    brightest = std::max(brightest, g.group.brightest);
             }
-        if (!std::isfinite(floor))
-            return;
+        if (!far.needed || !std::isfinite(floor))
+            return {};
+        const auto differences_radius = [&](double flux) {
+            return std::min(far.radius, same_beyond(facts, flux, plan_.budget()));
+        };
+        for (const KeptPsfs &there : kept(colour))
+            if (there.tables && there.far.exact_radius == far.exact_radius &&
+                there.far.exact_eps <= far.exact_eps && there.far.radius == far.radius &&
+                there.far.floor <= floor &&
+                there.far.differences_radius >= differences_radius(brightest))
+                return there.tables;
+        // Of the next scenes stars may be brighter.
+        const double room = plan_.reuse().store ? 4 : 1;
+        far.floor = floor / room;
+        far.differences_radius = differences_radius(room * brightest);
         std::optional<Psf> exact;
         if (far.exact_radius > 0) {
             const auto [x, y] = FarTables::places(plan_.region(), false)[0];
-            exact.emplace(std::move(make_psfs(optics_.nearest(x, y), {&optics_.lights[colour], 1},
-                                              settings(far.exact_eps, far.exact_radius),
-                                              {{}, manners_.memory_limit})[0]));
+            exact.emplace(std::move(make_psfs(
+                optics_.nearest(x, y), {&optics_.lights[static_cast<size_t>(colour)], 1},
+                settings(far.exact_eps, far.exact_radius), {{}, manners_.memory_limit})[0]));
             ++report_.exact_psfs;
         }
-        constexpr double little = 0.1; // of the budget
-        const double least = little * plan_.budget().error() / differing;
-        tables_[colour].emplace(
+        constexpr double below = 0.1; // light that sums of it must not count
+        auto made = std::make_shared<FarTables>(
             facts.far_lights, exact ? &*exact : nullptr, plan_.region(),
-            FarTables::Extent{far.radius, std::min(far.radius, facts.far->radius(least)), floor});
+            FarTables::Extent{far.radius, far.differences_radius, below * far.floor});
+        if (plan_.reuse().store)
+            plan_.reuse().store->keep(plan_.key(colour), far, made);
+        return made;
     }
 
     // What came of the plan's tolerances.
@@ -415,8 +443,8 @@ template <class T> class Renderer {
     int threads_;
     const Manners &manners_;
     // By colour.
-    std::vector<std::unique_ptr<VaryingPsf>> models_;
-    std::vector<std::optional<FarTables>> tables_;
+    std::vector<std::shared_ptr<const VaryingPsf>> models_;
+    std::vector<std::shared_ptr<const FarTables>> tables_;
     RenderReport report_;
 };
 

@@ -68,6 +68,11 @@ double SceneBudget::error() const {
     return noise * std::sqrt(variance);
 }
 
+double same_beyond(const ColourFacts &colour, double flux, const SceneBudget &budget) {
+    constexpr double little = 0.1; // of the budget
+    return colour.far->radius(little * budget.error() / (colour.far_varies * flux));
+}
+
 double psf_error(const SourceGroup &group, const ColourFacts &colour, const SceneBudget &budget,
                  const Way &way) {
     const double peak = colour.profile.peak();
@@ -205,20 +210,25 @@ void Ways::add_far(const Way &way, double time_s, const SharedFarLight &far,
     if (way.radius < reach.nearest() + 1 || way.radius >= group_.reach)
         return;
     const double of_psf = psf_error(group_, colour_, budget_, way);
-    for (const FarDrawing source : {FarDrawing::tables, FarDrawing::nearest, FarDrawing::own}) {
+    const bool too_bright =
+        colour_.varies && same_beyond(colour_, group_.brightest, budget_) > far.differences_radius;
+    for (const FarDrawing drawing : {FarDrawing::tables, FarDrawing::nearest, FarDrawing::own}) {
+        if (too_bright && drawing != FarDrawing::own)
+            continue;
         Way with = way;
-        with.far_drawing = source;
+        with.far_drawing = drawing;
         const double off = far_off(far, with);
         for (const FarReach::Step &step : reach.steps()) {
             if (group_.densest * step.floor > budget_.error())
                 continue;
-            if (2 * group_.densest * step.floor < negligible * budget_.error())
+            if (step.floor < far.floor ||
+                2 * group_.densest * step.floor < negligible * budget_.error())
                 break;
             // A table ends somewhere.
             const double tables_end = std::min({step.radius, far.radius, group_.reach});
-            const bool goes_on = source != FarDrawing::tables;
+            const bool goes_on = drawing != FarDrawing::tables;
             const double end = goes_on ? std::min(step.radius, group_.reach) : tables_end;
-            if (goes_on && end <= tables_end)
+            if (drawing == FarDrawing::nearest && end <= tables_end)
                 continue;
             const double left =
                 std::max(step.floor, end < step.radius ? reach.brightest_beyond(end) : 0);
@@ -226,9 +236,9 @@ void Ways::add_far(const Way &way, double time_s, const SharedFarLight &far,
             if (end <= way.radius || colour_.profile.beyond(from) > budget_.flux)
                 continue;
             double time = cost::far_blocks(step.pixels * tables_end / step.radius);
-            if (source == FarDrawing::nearest)
+            if (drawing == FarDrawing::nearest)
                 time += cost::far_light(pixels(end));
-            if (source == FarDrawing::own)
+            if (drawing == FarDrawing::own)
                 time += cost::making_far_light + cost::far_light(pixels(end)) +
                         cost::far_light(pixels(tables_end));
             const PixelError error = left_out(way, group_.densest * (left + off), from, left);

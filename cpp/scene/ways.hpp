@@ -67,6 +67,9 @@ struct SharedFarLight {
     double exact_radius = 0;
     double exact_eps = 0;
     double radius = 0; // where the tables end, native pixels
+    // What those that are there already will do for: light down to that share, and differences
+    // between places out to a radius.
+    double floor = 0, differences_radius = std::numeric_limits<double>::infinity();
     double time_s = 0;
 };
 
@@ -75,10 +78,14 @@ struct ColourFacts {
     LightProfile profile;
     double bandwidth = 0;             // relative; 0: one wavelength
     bool varies = false;              // over the detector
+    bool is_complete = false;         // as known as for the brightest stars
     std::vector<FarLight> far_lights; // at FarTables::places(), if plans may use them
     std::optional<FarReach> far;
     double far_varies = 0; // largest difference between those places, as a share of the brightest
 };
+
+// From where on it is of no account to stars of that flux how far light differs from place to place.
+double same_beyond(const ColourFacts &colour, double flux, const SceneBudget &budget);
 
 // Errors of a pixel, e-; where a star's own light adds noise, as many as are that share of the
 // noise in a pixel without sources. Those in single places hardly ever meet: their squares add up.

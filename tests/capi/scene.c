@@ -61,6 +61,36 @@ static double worst(const double *a, const double *b) {
     return most;
 }
 
+static void check_store(void) {
+    const double x[] = {1010.3, 1040.7, 1063.5}, y[] = {1020.1, 1050, 1000};
+    const double flux[] = {5000, 300, 2000};
+    static double first[N * N], second[N * N];
+    int64_t empty = -1, held = -1;
+    wfpsf_scene_store *store = NULL;
+    wfpsf_options *options = options_of(0.1, 100);
+    wfpsf_catalogue *catalogue = catalogue_of(3, x, y, flux);
+    CHECK_OK(wfpsf_scene_store_create(&store));
+    CHECK_OK(wfpsf_scene_store_memory(store, &empty));
+    CHECK(empty == 0);
+    CHECK_OK(wfpsf_options_set_scene_store(options, store));
+    CHECK_OK(wfpsf_options_set_integer(options, WFPSF_OPTION_SCENE_EXPOSURES, 50));
+    render(catalogue, options, first);
+    CHECK_OK(wfpsf_scene_store_memory(store, &held));
+    CHECK(held > 0);
+    wfpsf_scene_store_destroy(store); /* options share it */
+    render(catalogue, options, second);
+    CHECK(worst(first, second) <= 2 * 0.1 * sqrt(100));
+    CHECK_OK(wfpsf_options_set_scene_store(options, NULL));
+    render(catalogue, options, second);
+    CHECK(worst(first, second) <= 2 * 0.1 * sqrt(100));
+    CHECK_STATUS(WFPSF_ERROR_NULL, wfpsf_scene_store_create(NULL));
+    CHECK_STATUS(WFPSF_ERROR_NULL, wfpsf_scene_store_memory(NULL, &held));
+    CHECK_STATUS(WFPSF_ERROR_NULL, wfpsf_options_set_scene_store(NULL, NULL));
+    wfpsf_scene_store_destroy(NULL);
+    wfpsf_catalogue_destroy(catalogue);
+    wfpsf_options_destroy(options);
+}
+
 static void check_stars(void) {
     const double x[] = {1010.3, 1040.7, 1063.5, 990, 1030}, y[] = {1020.1, 1050, 1000, 1031, 1300};
     const double flux[] = {5000, 300, 2000, 8000, 4000};
@@ -288,6 +318,7 @@ int main(void) {
     check_hard_scenes();
     check_galaxies();
     check_plan();
+    check_store();
     check_bad_arguments();
     wfpsf_instrument_destroy(roman);
     return checked();

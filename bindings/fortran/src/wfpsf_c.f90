@@ -101,6 +101,7 @@ module wfpsf_constants
     integer(c_int32_t), parameter :: wfpsf_option_scene_flux = 920
     integer(c_int32_t), parameter :: wfpsf_option_scene_background = 930
     integer(c_int32_t), parameter :: wfpsf_option_exposure_time = 940
+    integer(c_int32_t), parameter :: wfpsf_option_scene_exposures = 950
     integer(c_int32_t), parameter :: wfpsf_option_real = 1
     integer(c_int32_t), parameter :: wfpsf_option_integer = 2
 
@@ -2136,6 +2137,38 @@ module wfpsf_c
         end function wfpsf_instrument_ab_zero_rate
 
         ! scene.h
+        function wfpsf_scene_store_create(out) &
+            bind(c, name="wfpsf_scene_store_create") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), intent(out) :: out
+            integer(c_int32_t) :: outcome
+        end function wfpsf_scene_store_create
+
+        subroutine wfpsf_scene_store_destroy(store) bind(c, name="wfpsf_scene_store_destroy")
+            import :: c_ptr
+            implicit none
+            type(c_ptr), value :: store
+        end subroutine wfpsf_scene_store_destroy
+
+        function wfpsf_scene_store_memory(store, bytes) &
+            bind(c, name="wfpsf_scene_store_memory") result(outcome)
+            import :: c_int32_t, c_int64_t, c_ptr
+            implicit none
+            type(c_ptr), value :: store
+            integer(c_int64_t), intent(inout), optional :: bytes
+            integer(c_int32_t) :: outcome
+        end function wfpsf_scene_store_memory
+
+        function wfpsf_options_set_scene_store(options, store) &
+            bind(c, name="wfpsf_options_set_scene_store") result(outcome)
+            import :: c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: options
+            type(c_ptr), value :: store
+            integer(c_int32_t) :: outcome
+        end function wfpsf_options_set_scene_store
+
         function wfpsf_scene_create(instrument, observation, band, sca, catalogue, image, x0, y0, &
             options, out) bind(c, name="wfpsf_scene_create") result(outcome)
             import :: c_char, c_double, c_int32_t, c_ptr

@@ -135,6 +135,7 @@ const WFPSF_OPTION_SCENE_VARIANCE = Int32(910)
 const WFPSF_OPTION_SCENE_FLUX = Int32(920)
 const WFPSF_OPTION_SCENE_BACKGROUND = Int32(930)
 const WFPSF_OPTION_EXPOSURE_TIME = Int32(940)
+const WFPSF_OPTION_SCENE_EXPOSURES = Int32(950)
 const WFPSF_OPTION_REAL = Int32(1)
 const WFPSF_OPTION_INTEGER = Int32(2)
 
@@ -1398,6 +1399,30 @@ const WFPSF_DRAWING_FOURIER = Int32(3)
 const WFPSF_DRAWING_FOURIER_OWN = Int32(4)
 const WFPSF_TRUTH_COLUMNS = Int32(16)
 
+const wfpsf_scene_store_create_pointer = Ref(C_NULL)
+function wfpsf_scene_store_create(out)
+    return ccall(wfpsf_scene_store_create_pointer[], Int32, (Ptr{Ptr{Cvoid}},),
+        out)
+end
+
+const wfpsf_scene_store_destroy_pointer = Ref(C_NULL)
+function wfpsf_scene_store_destroy(store)
+    return ccall(wfpsf_scene_store_destroy_pointer[], Cvoid, (Ptr{Cvoid},),
+        store)
+end
+
+const wfpsf_scene_store_memory_pointer = Ref(C_NULL)
+function wfpsf_scene_store_memory(store, bytes)
+    return ccall(wfpsf_scene_store_memory_pointer[], Int32, (Ptr{Cvoid}, Ptr{Int64}),
+        store, bytes)
+end
+
+const wfpsf_options_set_scene_store_pointer = Ref(C_NULL)
+function wfpsf_options_set_scene_store(options, store)
+    return ccall(wfpsf_options_set_scene_store_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}),
+        options, store)
+end
+
 const wfpsf_scene_create_pointer = Ref(C_NULL)
 function wfpsf_scene_create(instrument, observation, band, sca, catalogue, image, x0, y0, options,
     out)
@@ -1651,6 +1676,10 @@ const pointers = [
     :wfpsf_catalogue_add_galaxies => wfpsf_catalogue_add_galaxies_pointer,
     :wfpsf_catalogue_size => wfpsf_catalogue_size_pointer,
     :wfpsf_instrument_ab_zero_rate => wfpsf_instrument_ab_zero_rate_pointer,
+    :wfpsf_scene_store_create => wfpsf_scene_store_create_pointer,
+    :wfpsf_scene_store_destroy => wfpsf_scene_store_destroy_pointer,
+    :wfpsf_scene_store_memory => wfpsf_scene_store_memory_pointer,
+    :wfpsf_options_set_scene_store => wfpsf_options_set_scene_store_pointer,
     :wfpsf_scene_create => wfpsf_scene_create_pointer,
     :wfpsf_scene_destroy => wfpsf_scene_destroy_pointer,
     :wfpsf_scene_get => wfpsf_scene_get_pointer,

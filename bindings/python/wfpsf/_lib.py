@@ -107,6 +107,7 @@ WFPSF_OPTION_SCENE_VARIANCE = 910
 WFPSF_OPTION_SCENE_FLUX = 920
 WFPSF_OPTION_SCENE_BACKGROUND = 930
 WFPSF_OPTION_EXPOSURE_TIME = 940
+WFPSF_OPTION_SCENE_EXPOSURES = 950
 WFPSF_OPTION_REAL = 1
 WFPSF_OPTION_INTEGER = 2
 
@@ -351,6 +352,7 @@ wfpsf_observation_p = _handle("wfpsf_observation")
 wfpsf_moments_p = _handle("wfpsf_moments")
 wfpsf_study_p = _handle("wfpsf_study")
 wfpsf_catalogue_p = _handle("wfpsf_catalogue")
+wfpsf_scene_store_p = _handle("wfpsf_scene_store")
 wfpsf_scene_p = _handle("wfpsf_scene")
 wfpsf_rendering_p = _handle("wfpsf_rendering")
 wfpsf_exposure_p = _handle("wfpsf_exposure")
@@ -603,6 +605,10 @@ FUNCTIONS = {
         c_void_p, c_void_p, c_void_p, c_void_p, c_void_p, c_void_p]),
     "wfpsf_catalogue_size": (c_int32, [wfpsf_catalogue_p, POINTER(c_int64)]),
     "wfpsf_instrument_ab_zero_rate": (c_int32, [wfpsf_instrument_p, c_char_p, POINTER(c_double)]),
+    "wfpsf_scene_store_create": (c_int32, [POINTER(wfpsf_scene_store_p)]),
+    "wfpsf_scene_store_destroy": (None, [wfpsf_scene_store_p]),
+    "wfpsf_scene_store_memory": (c_int32, [wfpsf_scene_store_p, POINTER(c_int64)]),
+    "wfpsf_options_set_scene_store": (c_int32, [wfpsf_options_p, wfpsf_scene_store_p]),
     "wfpsf_scene_create": (c_int32, [wfpsf_instrument_p, wfpsf_observation_p, c_char_p, c_int32,
         wfpsf_catalogue_p, wfpsf_image_p, c_double, c_double, wfpsf_options_p,
         POINTER(wfpsf_scene_p)]),

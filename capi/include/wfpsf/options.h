@@ -115,7 +115,9 @@ enum { WFPSF_OPTION_REAL = 1, WFPSF_OPTION_INTEGER = 2 };
       "largest share of a source's light left out of its stamp")                                   \
     X(SCENE_BACKGROUND, 930, REAL, 0, 0, 1e9, "mean background of a native pixel, e-")             \
     X(EXPOSURE_TIME, 940, REAL, WFPSF_AUTOMATIC, 1e-3, 1e9,                                        \
-      "exposure time, s; automatic: the instrument's own")
+      "exposure time, s; automatic: the instrument's own")                                         \
+    X(SCENE_EXPOSURES, 950, INTEGER, 1, 1, 1000000,                                                \
+      "scenes of the same optics that are expected to share a scene store")
 
 #define WFPSF_OPTION_ENUM(name, key, kind, standard, smallest, largest, text)                      \
     WFPSF_OPTION_##name = (key),

@@ -31,6 +31,50 @@ extern "C" {
 
 typedef struct wfpsf_scene wfpsf_scene;
 
+/**
+ * What scenes are drawn with, kept for the next ones: PSFs of a whole detector and tables of far
+ * light, of every colour, detector and band the last ones that were made. Scenes of the same optics
+ * and image then plan with what is there, and make only what it will not do for: from the second
+ * exposure of a detector on, most of the time is saved (docs/scene.md).
+ *
+ *     wfpsf_scene_store_create(&store);
+ *     wfpsf_options_set_scene_store(options, store);
+ *     wfpsf_options_set_integer(options, WFPSF_OPTION_SCENE_EXPOSURES, 100);
+ *     for (...) { wfpsf_scene_create(...); wfpsf_scene_render(...); wfpsf_scene_destroy(...); }
+ *
+ * SCENE_EXPOSURES tells plans how many scenes share what they make, which may then take as many
+ * times as long. How a scene is drawn, within its budget, depends on what the store holds: who needs
+ * the same bits again starts from the same store. Thread-safe.
+ */
+typedef struct wfpsf_scene_store wfpsf_scene_store;
+
+/**
+ * An empty store.
+ *
+ * Returned: out     the handle; NULL on failure
+ * Status:   ERROR_NULL, ERROR_NO_MEMORY
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_scene_store_create(wfpsf_scene_store **out);
+
+/** Frees a store, once no options and no scenes share it any more; NULL is allowed. */
+WFPSF_EXPORT void wfpsf_scene_store_destroy(wfpsf_scene_store *store);
+
+/**
+ * What a store holds.
+ *
+ * Returned: bytes   about
+ * Status:   ERROR_NULL
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_scene_store_memory(const wfpsf_scene_store *store, int64_t *bytes);
+
+/**
+ * Scenes and exposures that are created with these options share a store; NULL: each makes its own.
+ *
+ * Status:   ERROR_NULL
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_options_set_scene_store(wfpsf_options *options,
+                                                        const wfpsf_scene_store *store);
+
 /** X(NAME, key, text): what can be asked of a scene, as planned. */
 #define WFPSF_SCENE_PROPERTY_LIST(X)                                                               \
     X(SOURCES, 10, "sources that have a place on the detector or around it")                       \
@@ -100,7 +144,8 @@ typedef struct wfpsf_rendering wfpsf_rendering;
  *           catalogue    its sources are copied
  *           image        its size and oversampling count; it is not touched
  *           x0, y0       position on the detector of the centre of the image's first native pixel
- *           options      SCENE_NOISE, SCENE_VARIANCE, SCENE_FLUX, EXPOSURE_TIME (for magnitudes);
+ *           options      SCENE_NOISE, SCENE_VARIANCE, SCENE_FLUX, EXPOSURE_TIME (for magnitudes),
+ *                        SCENE_EXPOSURES and a scene store;
  *                        STRUTS, PISTON_TILT, FRAME, FIELD_RULE, JITTER_*, CHARGE_DIFFUSION, extra
  *                        Zernikes, an OPD map. PIXEL_RESPONSE must be 1
  * Returned: out          the handle; NULL on failure

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "scene/scene_store.hpp"
+
+#include <utility>
+
+namespace wfpsf {
+
+namespace {
+
+constexpr int64_t memory_of_far_light = 4000000; // bytes, about
+
+} // namespace
+
+KeptPsfs SceneStore::find(uint64_t key) const {
+    const std::lock_guard lock(mutex_);
+    const auto found = kept_.find(key);
+    return found == kept_.end() ? KeptPsfs{} : found->second;
+}
+
+void SceneStore::keep(uint64_t key, std::shared_ptr<const ColourFacts> facts) {
+    const std::lock_guard lock(mutex_);
+    kept_[key].facts = std::move(facts);
+}
+
+void SceneStore::keep(uint64_t key, const SharedModel &model,
+                      std::shared_ptr<const VaryingPsf> psf) {
+    const std::lock_guard lock(mutex_);
+    KeptPsfs &kept = kept_[key];
+    kept.model = model;
+    kept.psf = std::move(psf);
+}
+
+void SceneStore::keep(uint64_t key, const SharedFarLight &far,
+                      std::shared_ptr<const FarTables> tables) {
+    const std::lock_guard lock(mutex_);
+    KeptPsfs &kept = kept_[key];
+    kept.far = far;
+    kept.tables = std::move(tables);
+}
+
+int64_t SceneStore::memory() const {
+    const std::lock_guard lock(mutex_);
+    int64_t bytes = 0;
+    for (const auto &[key, kept] : kept_) {
+        if (kept.facts)
+            bytes += static_cast<int64_t>(kept.facts->far_lights.size()) * memory_of_far_light;
+        if (kept.psf)
+            bytes += kept.psf->memory();
+        if (kept.tables)
+            bytes += kept.tables->memory();
+    }
+    return bytes;
+}
+
+} // namespace wfpsf

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What scenes of the same optics are drawn with, kept from one to the next.
+#pragma once
+
+#include "optics/varying_psf.hpp"
+#include "scene/far_table.hpp"
+#include "scene/ways.hpp"
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+
+namespace wfpsf {
+
+// Of one colour on one image of a detector. What is not there has not been made.
+struct KeptPsfs {
+    std::shared_ptr<const ColourFacts> facts;
+    SharedModel model; // what `psf` was made for
+    std::shared_ptr<const VaryingPsf> psf;
+    SharedFarLight far; // what `tables` were made for
+    std::shared_ptr<const FarTables> tables;
+};
+
+// Holds for every key what was kept last. Thread-safe.
+class SceneStore {
+  public:
+    KeptPsfs find(uint64_t key) const;
+    void keep(uint64_t key, std::shared_ptr<const ColourFacts> facts);
+    void keep(uint64_t key, const SharedModel &model, std::shared_ptr<const VaryingPsf> psf);
+    void keep(uint64_t key, const SharedFarLight &far, std::shared_ptr<const FarTables> tables);
+    int64_t memory() const; // bytes, about
+
+  private:
+    mutable std::mutex mutex_;
+    std::map<uint64_t, KeptPsfs> kept_;
+};
+
+// How scenes share what they are drawn with.
+struct SceneReuse {
+    std::shared_ptr<SceneStore> store = {}; // none: each makes its own
+    // That many scenes are expected: what they share may take as many times as long.
+    double scenes = 1;
+};
+
+} // namespace wfpsf

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scenes that share what they are drawn with: the second one makes none of it, and errors stay
+// within the budget, whatever the store holds.
+#include "scene/render.hpp"
+#include "scenes.hpp"
+
+#include <gtest/gtest.h>
+
+namespace wfpsf {
+namespace {
+
+const SceneImage image{.x0 = 1000, .y0 = 2000, .nx = 128, .ny = 96};
+const SceneBudget budget{.noise = 0.1, .variance = 100};
+
+struct Rendered {
+    Plane<double> image;
+    RenderReport report;
+    double allowed;
+};
+
+Rendered rendered(const SceneOptics &optics, const std::vector<PlacedSource> &sources,
+                  const SceneReuse &reuse) {
+    const ScenePlan plan(optics, sources, {}, budget, image, reuse);
+    EXPECT_TRUE(plan.meets_budget());
+    Plane<double> drawn(image.nx, image.ny);
+    const RenderReport report = render(optics, plan, drawn.view(), 1);
+    return {std::move(drawn), report, plan.budget().error()};
+}
+
+// Of a dark pixel's noise, in units of what is allowed.
+double worst(const Rendered &drawn, const Plane<double> &truth) {
+    double most = 0;
+    for (int64_t y = 0; y < truth.ny(); ++y)
+        for (int64_t x = 0; x < truth.nx(); ++x)
+            most = std::max(most, std::abs(drawn.image(x, y) - truth(x, y)) /
+                                      std::sqrt(1 + std::max(truth(x, y), 0.0) / budget.variance));
+    return most / drawn.allowed;
+}
+
+std::vector<PlacedSource> stars(unsigned seed, double bright = 19) {
+    return scenes::stars({150, bright, 26, 0.3, 5e12}, image, 20, 1, seed);
+}
+
+TEST(SceneStore, FurtherScenesMakeNoModelsAndMeetTheBudget) {
+    const SceneOptics optics = scenes::roman("J129", {monochromatic(1293e-9)});
+    const SceneReuse reuse{std::make_shared<SceneStore>(), 20};
+    EXPECT_EQ(reuse.store->memory(), 0);
+    rendered(optics, stars(1), reuse);
+    const int64_t held = reuse.store->memory();
+    EXPECT_GT(held, 0);
+    const Rendered second = rendered(optics, stars(2), reuse);
+    EXPECT_LT(second.report.exact_psfs, 10); // of the brightest stars
+    EXPECT_EQ(reuse.store->memory(), held);
+    EXPECT_LE(worst(second, scenes::brute_force(optics, stars(2), image, 1e-8)), 1);
+}
+
+TEST(SceneStore, BrighterStarsThanBeforeMeetTheBudget) {
+    const SceneOptics optics = scenes::roman("J129", {monochromatic(1293e-9)});
+    const SceneReuse reuse{std::make_shared<SceneStore>(), 1};
+    rendered(optics, stars(1, 24), reuse);
+    const Rendered brighter = rendered(optics, stars(3, 17), reuse);
+    EXPECT_LE(worst(brighter, scenes::brute_force(optics, stars(3, 17), image, 1e-8)), 1);
+}
+
+// Tables of far light too.
+TEST(SceneStore, BroadbandScenesAreWhatTheyAreAlone) {
+    const SceneOptics optics = scenes::roman(
+        "J129", {detected_light(Instrument::get("roman-c9").band("J129"), black_body_sed(5000))});
+    const SceneReuse reuse{std::make_shared<SceneStore>(), 20};
+    rendered(optics, stars(1), reuse);
+    const ScenePlan plan(optics, stars(2), {}, budget, image, reuse);
+    EXPECT_TRUE(plan.far()[0].needed);
+    const Rendered second = rendered(optics, stars(2), reuse);
+    EXPECT_EQ(second.report.exact_psfs, 0);
+    const Rendered alone = rendered(optics, stars(2), {});
+    EXPECT_GT(alone.report.exact_psfs, 0);
+    EXPECT_LE(worst(second, alone.image), 2); // either may be off by what is allowed
+}
+
+TEST(SceneStore, OtherOpticsShareNothing) {
+    const SceneReuse reuse{std::make_shared<SceneStore>(), 20};
+    const SceneOptics optics = scenes::roman("J129", {monochromatic(1293e-9)});
+    rendered(optics, stars(1), reuse);
+    const auto makes_its_own = [&reuse](const SceneOptics &other) {
+        const int64_t before = reuse.store->memory();
+        const int64_t made = rendered(other, stars(1), reuse).report.exact_psfs;
+        return made > 0 && reuse.store->memory() > before;
+    };
+    EXPECT_TRUE(makes_its_own(scenes::roman("J129", {monochromatic(1293e-9)}, 9)));
+    EXPECT_TRUE(makes_its_own(scenes::roman("J129", {monochromatic(1200e-9)})));
+    SceneOptics blurred = optics;
+    blurred.settings.blur = {.xx = 0.01, .xy = 0, .yy = 0.01};
+    EXPECT_TRUE(makes_its_own(blurred));
+    SceneOptics defocused = optics;
+    defocused.at = [at = optics.at](double x, double y) {
+        Optics here = at(x, y);
+        here.wavefront = here.wavefront.scaled(1.001);
+        return here;
+    };
+    EXPECT_TRUE(makes_its_own(defocused));
+}
+
+} // namespace
+} // namespace wfpsf
