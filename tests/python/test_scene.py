@@ -2,6 +2,7 @@
 """Catalogues, scenes and exposures: against PSFs drawn one by one, plans, truth, files, refusals."""
 import os
 import tempfile
+import ctypes
 import unittest
 
 import numpy as np
@@ -44,6 +45,26 @@ class Scenes(unittest.TestCase):
         np.testing.assert_allclose(again - 1, image.pixels, rtol=1e-5, atol=1e-4)
         self.assertEqual(status_of(lambda: scene.render(image, progress=lambda part: False)),
                          "ERROR_CANCELLED")
+
+    def test_store(self):
+        store = wfpsf.SceneStore()
+        self.assertEqual(store.memory, 0)
+
+        def made(**options):
+            catalogue = wfpsf.Catalogue("detector", "electrons")
+            catalogue.add_stars([1010.3, 1040.7], [1020.1, 1050], [5000, 300])
+            scene = wfpsf.Scene(self.roman, "J129", 7, catalogue, (64, 64), 1000, 1000,
+                                scene_noise=0.1, scene_variance=100, **options)
+            return scene.render(wfpsf.zeros((64, 64))).exact_psfs
+
+        self.assertGreater(made(scene_store=store, scene_exposures=50), 0)
+        held = store.memory
+        self.assertGreater(held, 0)
+        self.assertEqual(made(scene_store=store, scene_exposures=50), 0)
+        self.assertEqual(store.memory, held)
+        self.assertGreater(made(), 0)
+        with self.assertRaises((TypeError, ctypes.ArgumentError)):
+            made(scene_store="store")
 
     def test_plan(self):
         scene = self.scene(self.stars())

@@ -41,6 +41,7 @@ module wfpsf
         procedure :: reset => options_reset
         procedure :: set_zernikes => options_set_zernikes
         procedure :: set_opd => options_set_opd
+        procedure :: set_scene_store => options_set_scene_store
         procedure :: set_progress => options_set_progress
         final :: options_finalize
     end type wfpsf_options
@@ -265,6 +266,16 @@ module wfpsf
         final :: rendering_finalize
     end type wfpsf_rendering
 
+    ! What scenes are drawn with, kept for the next ones of the same optics and image:
+    ! options%set_scene_store() and the option scene_exposures. Threads may share it.
+    type, extends(handle) :: wfpsf_scene_store
+    contains
+        procedure :: create => scene_store_create
+        procedure :: destroy => scene_store_destroy
+        procedure :: memory => scene_store_memory
+        final :: scene_store_finalize
+    end type wfpsf_scene_store
+
     ! All sources of a catalogue on an image of a detector, within an error budget.
     type, extends(handle) :: wfpsf_scene
     contains
@@ -356,7 +367,7 @@ module wfpsf
     ! Options.
     private :: options_create, options_destroy, options_set_real, options_set_integer
     private :: options_get, options_reset, options_set_zernikes, options_set_opd
-    private :: options_set_progress, options_finalize
+    private :: options_set_scene_store, options_set_progress, options_finalize
     interface
         module subroutine options_create(self, stat, errmsg)
             class(wfpsf_options), intent(inout) :: self
@@ -419,6 +430,15 @@ module wfpsf
             integer, intent(out), optional :: stat
             character(len=*), intent(inout), optional :: errmsg
         end subroutine options_set_opd
+
+        ! Scenes and exposures that are created with these options share a store; absent: each makes
+        ! its own.
+        module subroutine options_set_scene_store(self, store, stat, errmsg)
+            class(wfpsf_options), intent(inout) :: self
+            type(wfpsf_scene_store), intent(in), optional :: store
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine options_set_scene_store
 
         ! A function of the caller's, such as
         !
@@ -1821,7 +1841,31 @@ module wfpsf
     private :: scene_create, scene_destroy, scene_get, scene_get_group, scene_groups_of, scene_text
     private :: scene_render, scene_truth, scene_finalize
     private :: rendering_destroy, rendering_get, rendering_finalize
+    private :: scene_store_create, scene_store_destroy, scene_store_memory, scene_store_finalize
     interface
+        module subroutine scene_store_create(self, stat, errmsg)
+            class(wfpsf_scene_store), intent(inout) :: self
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine scene_store_create
+
+        ! Options and scenes that share it keep it.
+        module subroutine scene_store_destroy(self)
+            class(wfpsf_scene_store), intent(inout) :: self
+        end subroutine scene_store_destroy
+
+        ! Bytes that it holds, about.
+        module subroutine scene_store_memory(self, bytes, stat, errmsg)
+            class(wfpsf_scene_store), intent(in) :: self
+            integer(int64), intent(inout) :: bytes
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine scene_store_memory
+
+        impure elemental module subroutine scene_store_finalize(self)
+            type(wfpsf_scene_store), intent(inout) :: self
+        end subroutine scene_store_finalize
+
         ! Plans a scene for images of the size and oversampling of this one; the centre of its first
         ! native pixel stands at (x0, y0) of the detector. observation: for positions on the sky.
         ! Options: scene_*, exposure_time, and those of the PSF but eps and psf_radius.

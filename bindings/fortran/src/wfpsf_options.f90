@@ -62,6 +62,14 @@ contains
             axis_y - 1), stat, errmsg)
     end procedure options_set_opd
 
+    module procedure options_set_scene_store
+        type(c_ptr) :: shared
+
+        shared = c_null_ptr
+        if (present(store)) shared = store%pointer
+        call report(wfpsf_options_set_scene_store(self%pointer, shared), stat, errmsg)
+    end procedure options_set_scene_store
+
     module procedure options_set_progress
         type(c_funptr) :: call_back
         type(c_ptr) :: passed

@@ -186,6 +186,29 @@ contains
         call self%destroy()
     end procedure scene_finalize
 
+    module procedure scene_store_create
+        type(c_ptr) :: created
+        integer :: status
+
+        status = wfpsf_scene_store_create(created)
+        call self%destroy()
+        self%pointer = created
+        call report(status, stat, errmsg)
+    end procedure scene_store_create
+
+    module procedure scene_store_destroy
+        call wfpsf_scene_store_destroy(self%pointer)
+        self%pointer = c_null_ptr
+    end procedure scene_store_destroy
+
+    module procedure scene_store_memory
+        call report(wfpsf_scene_store_memory(self%pointer, bytes), stat, errmsg)
+    end procedure scene_store_memory
+
+    module procedure scene_store_finalize
+        call self%destroy()
+    end procedure scene_store_finalize
+
     module procedure rendering_destroy
         call wfpsf_rendering_destroy(self%pointer)
         self%pointer = c_null_ptr

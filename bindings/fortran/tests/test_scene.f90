@@ -20,10 +20,58 @@ program test_scene
     call budget%set(wfpsf_option_scene_noise, 0.01_real64)
     call budget%set(wfpsf_option_scene_variance, 100.0_real64)
     call check_stars()
+    call check_store()
     call check_galaxies()
     call check_sky()
 
 contains
+
+    ! A store serves a second scene, and outlives its own handle.
+    subroutine check_store()
+        type(wfpsf_scene_store) :: store
+        type(wfpsf_options) :: options
+        type(wfpsf_catalogue) :: catalogue
+        type(wfpsf_scene) :: scene
+        type(wfpsf_image) :: image
+        type(wfpsf_rendering) :: rendering
+        real(real64), target :: drawn(64, 64)
+        real(real64) :: made(2)
+        integer(int64) :: bytes(2)
+        integer :: k
+
+        bytes = -1
+        made = -1
+        drawn = 0
+        call store%create()
+        call store%memory(bytes(1))
+        call expect(bytes(1) == 0, "an empty store")
+        call options%create()
+        call options%set(wfpsf_option_scene_noise, 0.1_real64)
+        call options%set(wfpsf_option_scene_variance, 100.0_real64)
+        call options%set(wfpsf_option_scene_exposures, 50)
+        call options%set_scene_store(store)
+        call catalogue%create(wfpsf_positions_detector, wfpsf_brightness_electrons)
+        call catalogue%add_stars(x(:2), y(:2), flux(:2))
+        call image%wrap(drawn, 1)
+        do k = 1, 2
+            call scene%create(roman, "J129", 7, catalogue, image, corner, corner, options=options)
+            call scene%render(image, rendering)
+            call rendering%get(wfpsf_rendering_exact_psfs, made(k))
+            call store%memory(bytes(k))
+        end do
+        call expect(made(1) > 0 .and. made(2) == 0, "PSFs are made once")
+        call expect(bytes(1) > 0 .and. bytes(2) == bytes(1), "memory of a store")
+        call store%destroy()
+        call scene%create(roman, "J129", 7, catalogue, image, corner, corner, options=options)
+        call scene%render(image, rendering)
+        call rendering%get(wfpsf_rendering_exact_psfs, made(2))
+        call expect(made(2) == 0, "options share the store")
+        call options%set_scene_store()
+        call scene%create(roman, "J129", 7, catalogue, image, corner, corner, options=options)
+        call scene%render(image, rendering)
+        call rendering%get(wfpsf_rendering_exact_psfs, made(2))
+        call expect(made(2) > 0, "a scene alone")
+    end subroutine check_store
 
     subroutine check_stars()
         type(wfpsf_catalogue) :: catalogue

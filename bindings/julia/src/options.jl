@@ -66,6 +66,8 @@ function set!(options, name, value)
     elseif name === :opd
         check(LibWfpsf.wfpsf_options_set_opd(options, value.map, value.scale_m, value.axis_x - 1,
                                              value.axis_y - 1))
+    elseif name === :scene_store
+        check(LibWfpsf.wfpsf_options_set_scene_store(options, value))
     elseif name === :progress
         options.progress.tell = value
         check(LibWfpsf.wfpsf_options_set_progress(

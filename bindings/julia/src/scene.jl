@@ -14,7 +14,8 @@ const TRUTH_COLUMNS = kept(!=(:columns), constants_of("WFPSF_TRUTH_"))
 
 const SCENE_OPTIONS = (:scene_noise, :scene_variance, :scene_flux, :scene_background,
                        :exposure_time, :struts, :piston_tilt, :frame, :field_rule, :jitter_xx,
-                       :jitter_xy, :jitter_yy, :charge_diffusion, :zernikes, :opd)
+                       :jitter_xy, :jitter_yy, :charge_diffusion, :zernikes, :opd, :scene_store,
+                       :scene_exposures)
 const RENDER_OPTIONS = (:threads, :memory_limit, :progress, :force)
 const TRUTH_OPTIONS = (:eps, :moments_tolerance, :threads)
 const EXPOSURE_OPTIONS = (SCENE_OPTIONS..., :seed, :stream, :noise)
@@ -156,6 +157,35 @@ function ab_zero_rate(instrument::Instrument, band::AbstractString)
 end
 
 """
+    SceneStore()
+    SceneStore(f)
+
+What scenes are drawn with, kept for the next ones: PSFs of a whole detector and tables of far
+light. Scenes of the same optics and image that are made with the option `scene_store = store` plan
+with what is there: from the second exposure of a detector on, most of the time is saved. The option
+`scene_exposures` tells plans how many scenes will share what they make, which may then take as many
+times as long. How a scene is drawn, within its budget, depends on what the store holds. Threads may
+share it.
+
+Its one property is `memory`: bytes that it holds, about.
+"""
+mutable struct SceneStore <: Handle
+    pointer::Ptr{Cvoid}
+    SceneStore() = finalizer(close, new(created(LibWfpsf.wfpsf_scene_store_create)))
+end
+
+destroy(::SceneStore, pointer) = LibWfpsf.wfpsf_scene_store_destroy(pointer)
+
+Base.propertynames(::SceneStore) = (:memory,)
+
+function Base.getproperty(store::SceneStore, name::Symbol)
+    name === :memory || throw(ArgumentError("no property $name here: there is memory"))
+    held = Ref{Int64}()
+    check(LibWfpsf.wfpsf_scene_store_memory(store, held))
+    return held[]
+end
+
+"""
     Scene(instrument, band, sca, catalogue, image, x0 = 1, y0 = 1; observation = nothing,
           options...)
     Scene(f, ...)
@@ -174,9 +204,9 @@ it out, [`scene_truth`](@ref) says what is true of its sources.
 `image` is an [`Image`](@ref), of which size and oversampling count, or `(nx, ny)`; (x0, y0) is
 where the centre of its first native pixel stands on the detector, whose first pixel's is (1, 1).
 `observation` is for positions on the sky. Options: `scene_noise`, `scene_variance`, `scene_flux`,
-`scene_background`, `exposure_time` (for magnitudes); `struts`, `piston_tilt`, `frame`,
-`field_rule`, `jitter_xx`, `jitter_xy`, `jitter_yy`, `charge_diffusion`, `zernikes` and `opd` as for
-[`PSF`](@ref).
+`scene_background`, `exposure_time` (for magnitudes); `scene_store`, a [`SceneStore`](@ref), and
+`scene_exposures`; `struts`, `piston_tilt`, `frame`, `field_rule`, `jitter_xx`, `jitter_xy`,
+`jitter_yy`, `charge_diffusion`, `zernikes` and `opd` as for [`PSF`](@ref).
 
 Properties: `sources` (that have a place on the detector or around it), `groups` (how many),
 `error_allowed` and `error_expected` (how far a pixel may be off, and may come to be off, e-),

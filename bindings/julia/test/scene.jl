@@ -38,6 +38,23 @@ end
     @test occursin("3 sources", string(planned))
 end
 
+@testset "store" begin
+    store = SceneStore()
+    @test store.memory == 0
+    @test propertynames(store) == (:memory,)
+    @test_throws ArgumentError store.size
+    made(; options...) = render!(Image(Float64, 64, 64),
+                                 Scene(roman, "J129", 7, catalogue, (64, 64), 1001, 1001;
+                                       scene_noise = 0.1, scene_variance = 100,
+                                       options...)).exact_psfs
+    @test made(scene_store = store, scene_exposures = 50) > 0
+    held = store.memory
+    @test held > 0
+    @test made(scene_store = store, scene_exposures = 50) == 0
+    @test store.memory == held
+    @test made() > 0
+end
+
 @testset "truth" begin
     table = scene_truth(planned, [2, 1]; kernel = IPCKernel(0.02, 0.002))
     @test table.position_x == x[[2, 1]] && table.position_y == y[[2, 1]]

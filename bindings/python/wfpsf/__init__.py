@@ -45,7 +45,7 @@ from ._observation import Observation, julian_date, sun_position
 from ._options import options
 from ._otf import OTF
 from ._psf import PSF, psfs
-from ._scene import Catalogue, Exposure, Rendering, Scene
+from ._scene import Catalogue, Exposure, Rendering, Scene, SceneStore
 from ._sed import SED
 from ._size import (ee_radius, ee_radius_derivative, encircled_energy, fwhm, profile_fwhm,
                     radial_profile)
@@ -58,7 +58,7 @@ check(library.wfpsf_abi_check(constants.WFPSF_ABI_NUMBER))
 __version__ = library.wfpsf_version().decode()  # of the loaded library
 
 __all__ = ["OTF", "PSF", "SED", "Catalogue", "Chain", "Design", "Exposure", "IPCKernel", "Image",
-           "Instrument", "Moments", "Observation", "Rendering", "Scene", "Study", "VaryingIPC",
+           "Instrument", "Moments", "Observation", "Rendering", "Scene", "SceneStore", "Study", "VaryingIPC",
            "VaryingPSF", "WfpsfError", "WfpsfWarning", "adaptive_moments", "add_noise", "constants",
            "deinterleave", "ee_radius", "ee_radius_derivative", "encircled_energy", "fwhm",
            "interleave", "julian_date", "library", "moment_sums", "moments_covariance",

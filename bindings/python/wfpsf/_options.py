@@ -58,6 +58,8 @@ class Options(Handle):
             image, scale_m, axis_x, axis_y = value
             image = as_image(image)
             check(lib.wfpsf_options_set_opd(self, image, scale_m, axis_x, axis_y))
+        elif name == "scene_store":
+            check(lib.wfpsf_options_set_scene_store(self, value))
         elif name == "progress":
             self._tell = _lib.wfpsf_progress(self._progress(value))  # the library holds its address
             check(lib.wfpsf_options_set_progress(self, self._tell, None))

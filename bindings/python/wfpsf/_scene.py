@@ -25,7 +25,8 @@ GROUP_WORDS = {"kind": {value: name for name, value in constants_of("WFPSF_KIND_
 
 SCENE_OPTIONS = ("scene_noise", "scene_variance", "scene_flux", "scene_background", "exposure_time",
                  "struts", "piston_tilt", "frame", "field_rule", "jitter_xx", "jitter_xy",
-                 "jitter_yy", "charge_diffusion", "zernikes", "opd")
+                 "jitter_yy", "charge_diffusion", "zernikes", "opd", "scene_store",
+                 "scene_exposures")
 RENDER_OPTIONS = ("threads", "memory_limit", "progress", "force")
 TRUTH_OPTIONS = ("eps", "moments_tolerance", "threads")
 EXPOSURE_OPTIONS = SCENE_OPTIONS + ("seed", "stream", "noise")
@@ -127,6 +128,41 @@ def _colours(colour, count):
     return found
 
 
+class SceneStore(Handle):
+    """What scenes are drawn with, kept for the next ones: PSFs of a whole detector and tables of far
+    light. Scenes of the same optics and image that are made with ``scene_store=store`` plan with
+    what is there: from the second exposure of a detector on, most of the time is saved. The option
+    ``scene_exposures`` tells plans how many scenes will share what they make, which may then take
+    as many times as long. How a scene is drawn, within its budget, depends on what the store holds.
+    Threads may share it.
+
+    >>> from wfpsf import Instrument
+    >>> roman, store = Instrument("roman-c9"), SceneStore()
+    >>> made = []
+    >>> for exposure in range(2):
+    ...     stars = Catalogue("detector", "electrons")
+    ...     stars.add_stars([2010, 2040], [2010, 2030 + exposure], [1e4, 300])
+    ...     scene = Scene(roman, "J129", 7, stars, (64, 64), 2000, 2000, scene_store=store,
+    ...                   scene_exposures=100)
+    ...     made.append(scene.render(zeros((64, 64))).exact_psfs)
+    >>> made[0] > 0, made[1]
+    (True, 0.0)
+    """
+
+    _kind = _lib.wfpsf_scene_store_p
+    _destroy = "wfpsf_scene_store_destroy"
+
+    def __init__(self):
+        self._make(lib.wfpsf_scene_store_create)
+
+    @property
+    def memory(self):
+        """Bytes that it holds, about."""
+        held = ctypes.c_int64()
+        check(lib.wfpsf_scene_store_memory(self, held))
+        return held.value
+
+
 class Scene(Properties, Handle):
     """All sources of a catalogue on an image of detector ``sca``, each modelled as far as an error
     budget needs. Immutable: threads may share it, each with its own image. What it was made of may
@@ -154,8 +190,9 @@ class Scene(Properties, Handle):
         For positions on the sky.
     options
         scene_noise, scene_variance, scene_flux, scene_background, exposure_time (for magnitudes);
-        struts, piston_tilt, frame, field_rule, jitter_xx, jitter_xy, jitter_yy, charge_diffusion,
-        zernikes and opd as for :class:`PSF`.
+        scene_store, a :class:`SceneStore`, and scene_exposures; struts, piston_tilt, frame,
+        field_rule, jitter_xx, jitter_xy, jitter_yy, charge_diffusion, zernikes and opd as for
+        :class:`PSF`.
 
     Attributes: sources (that have a place on the detector or around it), error_allowed and
     error_expected (how far a pixel may be off, and may come to be off, e-), time_expected (of
