@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Catalogues, scenes and exposures: against PSFs drawn one by one, plans, truth, files, refusals."""
+import ctypes
 import os
 import tempfile
-import ctypes
 import unittest
 
 import numpy as np
