@@ -55,9 +55,9 @@ inline double places(double stars, double width, double left_out) {
     return std::min(stars * one, cells * (1e-4 + 1.1e-7 * width * width));
 }
 
-// Far light on that many pixels, drawn by itself; and from tables, where it is bright enough.
-inline double far_light(double pixels) {
-    return 1e-4 + 3e-9 * pixels;
+// Far light on that many pixels of an image of so many, drawn by itself; and from tables.
+inline double far_light(double pixels, double image) {
+    return 1e-4 + 1e-9 * image + 1.1e-8 * pixels;
 }
 inline double far_blocks(double pixels) {
     return 2e-6 + 1.4e-8 * pixels;

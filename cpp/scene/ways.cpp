@@ -235,12 +235,13 @@ void Ways::add_far(const Way &way, double time_s, const SharedFarLight &far,
             const double from = std::min(std::max(step.halo, way.radius), end);
             if (end <= way.radius || colour_.profile.beyond(from) > budget_.flux)
                 continue;
-            double time = cost::far_blocks(step.pixels * tables_end / step.radius);
+            const double in_tables = step.pixels * tables_end / step.radius;
+            double time = cost::far_blocks(in_tables);
             if (drawing == FarDrawing::nearest)
-                time += cost::far_light(pixels(end));
+                time += cost::far_light(step.pixels - in_tables, pixels(end));
             if (drawing == FarDrawing::own)
-                time += cost::making_far_light + cost::far_light(pixels(end)) +
-                        cost::far_light(pixels(tables_end));
+                time += cost::making_far_light + cost::far_light(step.pixels, pixels(end)) +
+                        cost::far_light(in_tables, pixels(tables_end));
             const PixelError error = left_out(way, group_.densest * (left + off), from, left);
             with.far = step.floor;
             take({with, time_s + count() * time, {error.local + of_psf, error.mean}});
