@@ -206,12 +206,18 @@ template <class T> class Renderer {
     // Of a source's light, the share that is not drawn in pixels more than `radius` native ones off.
     double left_out(const PlannedGroup &planned, double radius) const {
         const Way &way = planned.way;
+        const LightProfile &profile = plan_.colour(planned.group.colour).profile;
         const double from = std::max(radius, way.radius);
-        const double all = plan_.colour(planned.group.colour).profile.expected_beyond(from);
+        const double all = profile.expected_beyond(from);
         if (way.far == 0)
             return all;
-        const FarTable &table = tables_[static_cast<size_t>(planned.group.colour)]->middle();
-        return all - table.light(INFINITY, way.radius, way.far) +
+        const FarTables &tables = *tables_[static_cast<size_t>(planned.group.colour)];
+        // Where far light goes on beyond tables, it is taken for all that there is.
+        const double beyond = way.far_drawing == FarDrawing::tables
+                                  ? 0
+                                  : profile.expected_beyond(std::max(from, tables.radius()));
+        const FarTable &table = tables.middle();
+        return all - beyond - table.light(INFINITY, way.radius, way.far) +
                table.light(from, way.radius, way.far);
     }
 
