@@ -1,56 +1,230 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/far_table.hpp"
 
-#include "numerics/cubic_spline.hpp"
-#include "numerics/dispatch.hpp"
+#include "scene/sampled_light.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 namespace wfpsf {
 
 namespace {
 
-constexpr int64_t taps = 4;            // along an axis
-constexpr int64_t wide = 16, high = 8; // a block, native pixels
+constexpr int64_t wide = LightBlocks::wide, high = LightBlocks::high;
 
-// The first pixel of a block is the sum of these coefficients; the next ones are beside them, the
-// next rows' `stride` after them.
-struct Taps {
-    std::array<const float *, taps * taps> first;
-    std::array<float, taps * taps> weight;
-    int64_t stride;
+// Splines may be off by that share of the brightest pixel as far from the star. Those of twice as
+// many samples are better by `better`, or more.
+constexpr double coarse = 1e-4, better = 8;
+
+// The samples that a block's pixels may fall on.
+SampleRange range_of(int64_t x, int64_t y, int64_t blocks, int64_t per_pixel) {
+    const int64_t half = per_pixel / 2;
+    return {x * per_pixel - half, y * per_pixel - half,
+            (blocks * wide - 1) * per_pixel + 2 * half + 1, (high - 1) * per_pixel + 2 * half + 1};
+}
+
+// work(x, y) on the samples of a range that are not near the star along both axes.
+template <class Work>
+void on_samples(const SampledLight &light, const SampleRange &range, double never,
+                const Work &work) {
+    const auto near = static_cast<int64_t>(never * static_cast<double>(light.per_pixel));
+    for (int64_t y = range.y; y < range.y + range.ny; ++y)
+        for (int64_t x = range.x; x < range.x + range.nx; ++x)
+            if (std::abs(x) > near || std::abs(y) > near)
+                work(light.middle() + x, light.middle() + y);
+}
+
+// No pixel more than that from the star is beyond the borders of blocks.
+int64_t half_width(double radius) {
+    return static_cast<int64_t>(std::ceil(radius)) + wide + 4;
+}
+
+} // namespace
+
+// The light of one place, in blocks, those of a row in turn.
+struct MiddleLight {
+    struct Block {
+        int64_t x, y;
+        double brightest = 0, light = 0; // in a pixel; on the average
+        double tolerance = 0;            // what splines may be off
+        double off = 0;                  // what those of one sample a pixel are
+        int64_t per_pixel = 1;           // what it takes
+    };
+    using Fill = std::function<void(SampledLight &, const SampleRange &)>;
+
+    MiddleLight(const FarLight &light, const Psf *exact, const FarTables::Extent &extent);
+
+    double radius, never, floor;
+    std::vector<Block> blocks;
+    std::array<Plane<float>, 3> coefficients; // of 1, 2, 4 samples a pixel
+
+    // Runs of blocks that are wanted.
+    template <class Wanted, class Work>
+    void on_runs(int64_t per_pixel, const Wanted &wanted, const Work &work) const {
+        for (size_t i = 0; i < blocks.size();) {
+            size_t end = i;
+            while (end < blocks.size() && wanted(blocks[end]) && blocks[end].y == blocks[i].y &&
+                   blocks[end].x == blocks[i].x + static_cast<int64_t>(end - i) * wide)
+                ++end;
+            if (end > i)
+                work(range_of(blocks[i].x, blocks[i].y, static_cast<int64_t>(end - i), per_pixel));
+            i = std::max(end, i + 1);
+        }
+    }
+
+    // How far one is off the other.
+    double off(const Block &tile, const SampledLight &is, const SampledLight &guess) const;
+
+  private:
+    void find_tolerances(const SampledLight &light);
 };
 
-WFPSF_VECTORISED void sum(const Taps &of, float *pixels) {
-    for (int64_t y = 0; y < high; ++y) {
-        float sums[wide] = {};
-        for (size_t k = 0; k < of.first.size(); ++k)
-            for (int64_t i = 0; i < wide; ++i)
-                sums[i] += of.weight[k] * of.first[k][y * of.stride + i];
-        std::copy_n(sums, wide, pixels + y * wide);
+double MiddleLight::off(const Block &tile, const SampledLight &is,
+                        const SampledLight &guess) const {
+    float most = 0;
+    on_samples(is, range_of(tile.x, tile.y, 1, is.per_pixel), never, [&](int64_t x, int64_t y) {
+        most = std::max(most, std::abs(is.sample(x, y) - guess.sample(x, y)));
+    });
+    return static_cast<double>(most);
+}
+
+MiddleLight::MiddleLight(const FarLight &light, const Psf *exact, const FarTables::Extent &extent)
+    : radius(extent.radius), never(light.nearest() + 1), floor(extent.floor) {
+    const auto first = [this](int64_t size) {
+        return -static_cast<int64_t>(std::ceil(radius / static_cast<double>(size))) * size;
+    };
+    const auto reaches = [this](int64_t at) { return static_cast<double>(at) - 0.5 <= radius; };
+    const auto is_near = [this](int64_t at, int64_t size) {
+        return static_cast<double>(-at) + 0.5 <= never &&
+               static_cast<double>(at + size) - 0.5 <= never;
+    };
+    for (int64_t y = first(high); reaches(y); y += high)
+        for (int64_t x = first(wide); reaches(x); x += wide)
+            if (!is_near(x, wide) || !is_near(y, high))
+                blocks.push_back({x, y});
+    const auto fill = [&](SampledLight &sampled, const SampleRange &range) {
+        if (exact)
+            sampled.add(*exact, range);
+        sampled.add(light, exact ? exact->settings().radius : light.nearest(), floor, range);
+    };
+    SampledLight two(2, half_width(radius));
+    fill(two, two.all());
+    find_tolerances(two);
+    LightSpline of_one(two.coarser());
+    const SampledLight guess_two = of_one.finer();
+    for (Block &tile : blocks)
+        tile.off = off(tile, two, guess_two);
+    LightSpline of_two(std::move(two));
+    const SampledLight guess_four = of_two.finer();
+    SampledLight four = guess_four;
+    const auto may_need_four = [](const Block &tile) {
+        return tile.off > better * tile.tolerance;
+    };
+    on_runs(4, may_need_four, [&](const SampleRange &range) {
+        four.clear(range);
+        fill(four, range);
+    });
+    for (Block &tile : blocks) {
+        if (tile.off > tile.tolerance)
+            tile.per_pixel = 2;
+        if (may_need_four(tile) && off(tile, four, guess_four) > tile.tolerance)
+            tile.per_pixel = 4;
+    }
+    coefficients = {std::move(of_one.coefficients), std::move(of_two.coefficients),
+                    std::move(LightSpline(std::move(four)).coefficients)};
+}
+
+void MiddleLight::find_tolerances(const SampledLight &light) {
+    std::vector<std::pair<double, Block *>> by_distance;
+    for (Block &tile : blocks) {
+        double sum = 0, count = 0;
+        on_samples(light, range_of(tile.x, tile.y, 1, light.per_pixel), never,
+                   [&](int64_t x, int64_t y) {
+                       const auto here = static_cast<double>(light.sample(x, y));
+                       tile.brightest = std::max(tile.brightest, std::abs(here));
+                       sum += here;
+                       ++count;
+                   });
+        tile.light = sum / std::max(count, 1.0);
+        by_distance.emplace_back(std::hypot(tile.x + wide / 2, tile.y + high / 2), &tile);
+    }
+    std::ranges::stable_sort(by_distance, std::ranges::greater(),
+                             &std::pair<double, Block *>::first);
+    double brightest = 0;
+    for (const auto &[distance, tile] : by_distance) {
+        brightest = std::max(brightest, tile->brightest);
+        tile->tolerance = std::max(coarse * brightest, floor);
     }
 }
 
-// Coarse samples do for what is small.
-constexpr int64_t per_pixel_of_light = 4, per_pixel_of_differences = 2;
+namespace {
 
-SampledLight sampled_middle(const FarLight &light, const Psf *exact, double radius, double floor) {
-    SampledLight sampled(per_pixel_of_light, radius);
-    double inner = light.nearest();
-    if (exact) {
-        sampled.add(*exact);
-        inner = exact->settings().radius;
-    }
-    sampled.add(light, inner, floor);
-    return sampled;
+LightBlocks blocks_of(const MiddleLight &light) {
+    std::vector<LightBlocks::Block> blocks;
+    for (const MiddleLight::Block &tile : light.blocks)
+        if (tile.brightest > light.floor)
+            blocks.push_back({tile.x,
+                              tile.y,
+                              tile.per_pixel,
+                              half_width(light.radius),
+                              light.never,
+                              {{0, tile.brightest,
+                                &light.coefficients[static_cast<size_t>(tile.per_pixel / 2)]}}});
+    return LightBlocks(std::move(blocks));
 }
+
+} // namespace
+
+FarTable::FarTable(const MiddleLight &light) : radius_(light.radius), blocks_(blocks_of(light)) {
+    for (const MiddleLight::Block &tile : light.blocks)
+        if (tile.brightest > light.floor)
+            shares_.push_back({tile.brightest, tile.light, tile.x, tile.y});
+    std::ranges::stable_sort(shares_, std::ranges::greater(), &Share::brightest);
+}
+
+double FarTable::light(double within, double inner, double floor) const {
+    // How much of a block's area is at most so far from the star.
+    const auto part = [](const Share &of, double radius) {
+        const auto along = [radius](int64_t first, int64_t size) {
+            const double at = static_cast<double>(first) - 0.5,
+                         end = at + static_cast<double>(size);
+            return std::max(std::min(end, radius) - std::max(at, -radius), 0.0);
+        };
+        return along(of.x, wide) * along(of.y, high);
+    };
+    double sum = 0;
+    for (const Share &of : shares_) {
+        if (of.brightest <= floor)
+            break;
+        const double inside = part(of, std::min(within, radius_)) - part(of, inner);
+        sum += of.light * std::max(inside, 0.0);
+    }
+    return sum;
+}
+
+template <class T>
+void FarTable::add(const Star &star, double inner, double floor, View<T> image, int64_t first_row,
+                   int64_t last_row) const {
+    constexpr std::array all{1.0};
+    blocks_.add(star, all, {inner, radius_, floor}, image, first_row, last_row);
+}
+
+namespace {
 
 // The places along x and y in the order of FarTables::places().
 constexpr std::array<std::pair<int, int>, 9> order{
     {{1, 1}, {0, 1}, {2, 1}, {1, 0}, {1, 2}, {0, 0}, {2, 0}, {0, 2}, {2, 2}}};
+
+// Light of the places by [j][i]; then the coefficients of polynomials.
+using OfPlaces = std::array<std::array<std::optional<SampledLight>, 3>, 3>;
+
+std::optional<SampledLight> &at_place(OfPlaces &all, size_t place) {
+    const auto &[i, j] = order[place];
+    return all[static_cast<size_t>(j)][static_cast<size_t>(i)];
+}
 
 // From the values of a quadratic at -1, 0 and 1 to its coefficients.
 void to_coefficients(SampledLight &from, const SampledLight &middle, SampledLight &to) {
@@ -63,161 +237,91 @@ void to_coefficients(SampledLight &from, const SampledLight &middle, SampledLigh
         }
 }
 
+void to_coefficients(OfPlaces &at) {
+    for (auto &row : at)
+        to_coefficients(*row[0], *row[1], *row[2]);
+    for (size_t i = 0; i < at.size(); ++i)
+        to_coefficients(*at[0][i], *at[1][i], *at[2][i]);
+}
+
+LightBlocks differences_of(std::span<const FarLight> at_places, const FarTables::Extent &extent,
+                           const MiddleLight &middle) {
+    const double radius = extent.differences_radius;
+    std::vector<LightBlocks::Block> blocks;
+    if (at_places.size() == 1 || radius <= at_places[0].nearest())
+        return LightBlocks(std::move(blocks));
+    // Of what is below a floor everywhere, differences are less.
+    constexpr double less = 0.3;
+    const auto fill = [&](size_t place, SampledLight &sampled, const SampleRange &range) {
+        sampled.add(at_places[place], at_places[place].nearest(), extent.floor / less, range);
+    };
+    const auto reaches = [radius](const MiddleLight::Block &tile) {
+        const auto along = [radius](int64_t at, int64_t size) {
+            return static_cast<double>(at) - 0.5 <= radius &&
+                   static_cast<double>(at + size) - 0.5 >= -radius;
+        };
+        return along(tile.x, wide) && along(tile.y, high);
+    };
+    OfPlaces one, two;
+    for (size_t k = 0; k < order.size(); ++k) {
+        auto &sampled = at_place(one, k);
+        sampled.emplace(1, half_width(radius));
+        fill(k, *sampled, sampled->all());
+        at_place(two, k).emplace(LightSpline(*sampled).finer());
+    }
+    to_coefficients(one);
+    OfPlaces guess = two;
+    to_coefficients(guess);
+    const auto brightest = [&](const SampledLight &light, const MiddleLight::Block &tile) {
+        float most = 0;
+        on_samples(
+            light, range_of(tile.x, tile.y, 1, light.per_pixel), middle.never,
+            [&](int64_t x, int64_t y) { most = std::max(most, std::abs(light.sample(x, y))); });
+        return static_cast<double>(most);
+    };
+    // Splines of differences are off by about as much of them as those of light.
+    const auto may_need_two = [&](const MiddleLight::Block &tile) {
+        if (!reaches(tile) || tile.off <= tile.tolerance)
+            return false;
+        double most = 0;
+        for (size_t k = 1; k < order.size(); ++k)
+            most = std::max(most, brightest(*at_place(one, k), tile));
+        return 2 * tile.off * most > tile.tolerance * tile.brightest;
+    };
+    middle.on_runs(2, may_need_two, [&](const SampleRange &range) {
+        for (size_t k = 0; k < order.size(); ++k) {
+            at_place(two, k)->clear(range);
+            fill(k, *at_place(two, k), range);
+        }
+    });
+    to_coefficients(two);
+    std::vector<LightSpline> of_one, of_two;
+    for (size_t k = 1; k < order.size(); ++k) {
+        of_one.emplace_back(*at_place(one, k));
+        of_two.emplace_back(*at_place(two, k));
+    }
+    for (const MiddleLight::Block &tile : middle.blocks) {
+        if (!reaches(tile))
+            continue;
+        LightBlocks::Block of{tile.x, tile.y, 1, half_width(radius), middle.never, {}};
+        double off = 0;
+        for (size_t k = 1; k < order.size(); ++k)
+            off = std::max(off, middle.off(tile, *at_place(two, k), *at_place(guess, k)));
+        if (off > tile.tolerance)
+            of.per_pixel = 2;
+        for (size_t k = 1; k < order.size(); ++k) {
+            const double most = brightest(*at_place(two, k), tile);
+            if (most > extent.floor)
+                of.parts.push_back(
+                    {k - 1, most, &(of.per_pixel == 1 ? of_one : of_two)[k - 1].coefficients});
+        }
+        if (!of.parts.empty())
+            blocks.push_back(std::move(of));
+    }
+    return LightBlocks(std::move(blocks));
+}
+
 } // namespace
-
-// Blocks of a table reach a little farther than its light.
-SampledLight::SampledLight(int64_t samples, double radius)
-    : per_pixel(samples), half(static_cast<int64_t>(std::ceil(radius)) + 3 * wide),
-      sample(2 * half * per_pixel + 1, 2 * half * per_pixel + 1) {}
-
-// Samples of every sub-pixel phase are an image of native pixels of their own.
-void SampledLight::add(const FarLight &light, double inner, double floor) {
-    for (int64_t v = 0; v < per_pixel; ++v)
-        for (int64_t u = 0; u < per_pixel; ++u) {
-            const View<float> all = sample.view();
-            const View<float> phase{all.row(v) + u, (all.nx - u + per_pixel - 1) / per_pixel,
-                                    (all.ny - v + per_pixel - 1) / per_pixel, per_pixel,
-                                    per_pixel * all.stride_y};
-            const auto star = [this](int64_t first) {
-                return static_cast<double>(half) -
-                       static_cast<double>(first) / static_cast<double>(per_pixel);
-            };
-            light.add({star(u), star(v), 1}, inner, floor, phase);
-        }
-}
-
-void SampledLight::add(const Psf &psf) {
-    const auto reach = static_cast<int64_t>(
-        std::min(std::floor(psf.settings().radius), static_cast<double>(half)) *
-        static_cast<double>(per_pixel));
-    const int64_t first = half * per_pixel - reach;
-    const View<float> all = sample.view();
-    const View<float> within{all.row(first) + first, 2 * reach + 1, 2 * reach + 1, 1, all.stride_y};
-    // Samples get their share of a native pixel.
-    const auto middle = static_cast<double>(reach);
-    psf.draw({middle, middle, static_cast<double>(per_pixel * per_pixel)}, per_pixel, within,
-             Psf::Drawing::adds);
-}
-
-FarTable::FarTable(SampledLight light, double radius)
-    : per_pixel_(light.per_pixel), half_(light.half), radius_(radius) {
-    const auto blocks = [radius](int64_t size) {
-        return static_cast<int64_t>(std::ceil(radius / static_cast<double>(size))) + 1;
-    };
-    for (int64_t b = -blocks(high) * high; b < blocks(high) * high; b += high)
-        for (int64_t a = -blocks(wide) * wide; a < blocks(wide) * wide; a += wide) {
-            float most = 0; // wherever in its pixel the star stands
-            double all = 0;
-            for (int64_t y = -per_pixel_; y < high * per_pixel_; ++y)
-                for (int64_t x = -per_pixel_; x < wide * per_pixel_; ++x) {
-                    const float here =
-                        light.sample((half_ + a) * per_pixel_ + x, (half_ + b) * per_pixel_ + y);
-                    most = std::max(most, std::abs(here));
-                    if (x >= 0 && y >= 0)
-                        all += static_cast<double>(here);
-                }
-            const auto samples = static_cast<double>(per_pixel_ * per_pixel_);
-            blocks_.push_back({static_cast<double>(most), all / samples, a, b});
-        }
-    std::ranges::stable_sort(blocks_, std::ranges::greater(), &Block::brightest);
-    to_spline_coefficients(light.sample);
-    const int64_t native = 2 * half_;
-    light_ = Plane<float>(native, native * per_pixel_ * per_pixel_);
-    for (int64_t y = 0; y < native * per_pixel_; ++y)
-        for (int64_t x = 0; x < native; ++x)
-            for (int64_t u = 0; u < per_pixel_; ++u)
-                light_(x, y * per_pixel_ + u) = light.sample(x * per_pixel_ + u, y);
-}
-
-double FarTable::light(double within, double inner, double floor) const {
-    // How much of a block's area is at most so far from the star.
-    const auto part = [](const Block &of, double radius) {
-        const auto along = [radius](int64_t first, int64_t size) {
-            const auto at = static_cast<double>(first), length = static_cast<double>(size);
-            return std::clamp(std::min(at + length, radius) - std::max(at, -radius), 0.0, length) /
-                   length;
-        };
-        return along(of.x, wide) * along(of.y, high);
-    };
-    double sum = 0;
-    for (const Block &of : blocks_) {
-        if (of.brightest <= floor)
-            break;
-        const double inside = part(of, std::min(within, radius_)) - part(of, inner);
-        sum += of.light * std::max(inside, 0.0);
-    }
-    return sum;
-}
-
-template <class T>
-void FarTable::add(const Star &star, double inner, double floor, View<T> image, int64_t first_row,
-                   int64_t last_row) const {
-    const auto base_x = static_cast<int64_t>(std::floor(star.x));
-    const auto base_y = static_cast<int64_t>(std::floor(star.y));
-    // Of the star's pixel, the same fraction of a sample for all: taps by native pixel and phase.
-    struct Axis {
-        std::array<int64_t, taps> pixel, phase;
-        std::array<double, taps> weight;
-    };
-    const auto axis = [this](double fraction) {
-        const double at = (static_cast<double>(half_) - fraction) * static_cast<double>(per_pixel_);
-        Axis found{{}, {}, spline_weights(at - std::floor(at))};
-        for (size_t k = 0; k < found.pixel.size(); ++k) {
-            const int64_t sample =
-                static_cast<int64_t>(std::floor(at)) - 1 + static_cast<int64_t>(k);
-            found.pixel[k] = sample / per_pixel_;
-            found.phase[k] = sample % per_pixel_;
-        }
-        return found;
-    };
-    const Axis x_axis = axis(star.x - static_cast<double>(base_x));
-    const Axis y_axis = axis(star.y - static_cast<double>(base_y));
-    const auto within = [](double at, double radius) {
-        return std::pair(static_cast<int64_t>(std::ceil(at - radius)),
-                         static_cast<int64_t>(std::floor(at + radius)));
-    };
-    const auto [left, right] = within(star.x, radius_);
-    const auto [low, top] = within(star.y, radius_);
-    Taps of{};
-    of.stride = light_.nx() * per_pixel_ * per_pixel_;
-    for (size_t v = 0; v < taps; ++v)
-        for (size_t u = 0; u < taps; ++u)
-            of.weight[v * taps + u] = static_cast<float>(y_axis.weight[v] * x_axis.weight[u]);
-    float pixels[high * wide];
-    for (const Block &part : blocks_) {
-        if (part.brightest <= floor)
-            break;
-        const int64_t block_x = base_x + part.x, block_y = base_y + part.y;
-        const int64_t x0 = std::max({block_x, left, int64_t{0}});
-        const int64_t x1 = std::min({block_x + wide - 1, right, image.nx - 1});
-        const int64_t y0 = std::max({block_y, low, first_row});
-        const int64_t y1 = std::min({block_y + high - 1, top, last_row});
-        if (x0 > x1 || y0 > y1)
-            continue;
-        const auto is_inside = [inner](int64_t pixel, double centre) {
-            return std::abs(static_cast<double>(pixel) - centre) <= inner;
-        };
-        const bool left_inside = is_inside(x0, star.x), right_inside = is_inside(x1, star.x);
-        const bool low_inside = is_inside(y0, star.y), top_inside = is_inside(y1, star.y);
-        if (left_inside && right_inside && low_inside && top_inside)
-            continue;
-        // The inner part is wider than a block.
-        const bool touches = (left_inside || right_inside) && (low_inside || top_inside);
-        for (size_t v = 0; v < taps; ++v)
-            for (size_t u = 0; u < taps; ++u)
-                of.first[v * taps + u] = &light_(
-                    part.x + x_axis.pixel[u],
-                    ((part.y + y_axis.pixel[v]) * per_pixel_ + y_axis.phase[v]) * per_pixel_ +
-                        x_axis.phase[u]);
-        sum(of, pixels);
-        for (int64_t y = y0; y <= y1; ++y) {
-            const float *const row = pixels + (y - block_y) * wide - block_x;
-            for (int64_t x = x0; x <= x1; ++x)
-                if (!touches || !is_inside(y, star.y) || !is_inside(x, star.x))
-                    image(x, y) += static_cast<T>(star.flux * static_cast<double>(row[x]));
-        }
-    }
-}
 
 std::vector<std::pair<double, double>> FarTables::places(const Region &image, bool varies) {
     const auto at = [&image](int i, int j) {
@@ -235,28 +339,12 @@ std::vector<std::pair<double, double>> FarTables::places(const Region &image, bo
 
 FarTables::FarTables(std::span<const FarLight> at_places, const Psf *exact, const Region &image,
                      const Extent &extent)
-    : image_(image),
-      middle_(sampled_middle(at_places[0], exact, extent.radius, extent.floor), extent.radius) {
-    const double radius = extent.differences_radius;
-    if (at_places.size() == 1 || radius <= at_places[0].nearest())
-        return;
-    // Of what is below a floor everywhere, differences are less.
-    constexpr double less = 0.3;
-    std::array<std::array<std::optional<SampledLight>, 3>, 3> at; // [j][i]
-    for (size_t k = 0; k < order.size(); ++k) {
-        auto &sampled =
-            at[static_cast<size_t>(order[k].second)][static_cast<size_t>(order[k].first)];
-        sampled.emplace(per_pixel_of_differences, radius);
-        sampled->add(at_places[k], at_places[k].nearest(), extent.floor / less);
-    }
-    for (auto &row : at)
-        to_coefficients(*row[0], *row[1], *row[2]);
-    for (size_t i = 0; i < at.size(); ++i)
-        to_coefficients(*at[0][i], *at[1][i], *at[2][i]);
-    for (const auto &[i, j] : std::span(order).subspan(1))
-        differences_.emplace_back(std::move(*at[static_cast<size_t>(j)][static_cast<size_t>(i)]),
-                                  radius);
-}
+    : FarTables(at_places, image, extent, MiddleLight(at_places[0], exact, extent)) {}
+
+FarTables::FarTables(std::span<const FarLight> at_places, const Region &image, const Extent &extent,
+                     const MiddleLight &middle)
+    : image_(image), differences_radius_(extent.differences_radius), middle_(middle),
+      differences_(differences_of(at_places, extent, middle)) {}
 
 template <class T>
 void FarTables::add(const Star &star, double x, double y, double inner, double floor, View<T> image,
@@ -269,13 +357,13 @@ void FarTables::add(const Star &star, double x, double y, double inner, double f
     };
     const auto along_x = powers(x, image_.x0, image_.x1);
     const auto along_y = powers(y, image_.y0, image_.y1);
-    for (size_t k = 0; k < differences_.size(); ++k) {
+    std::array<double, order.size() - 1> weights{};
+    for (size_t k = 0; k < weights.size(); ++k) {
         const auto &[i, j] = order[k + 1];
-        const double weight = along_x[static_cast<size_t>(i)] * along_y[static_cast<size_t>(j)];
-        if (weight != 0)
-            differences_[k].add({star.x, star.y, weight * star.flux}, inner,
-                                little * floor / std::abs(weight), image, first_row, last_row);
+        weights[k] = along_x[static_cast<size_t>(i)] * along_y[static_cast<size_t>(j)];
     }
+    differences_.add(star, weights, {inner, differences_radius_, little * floor}, image, first_row,
+                     last_row);
 }
 
 template void FarTable::add(const Star &, double, double, View<float>, int64_t, int64_t) const;
