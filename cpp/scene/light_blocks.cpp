@@ -37,22 +37,24 @@ struct Weighted {
     float weight;
 };
 
-// Adds so many parts at once.
-template <size_t... part>
-[[gnu::always_inline]] inline void add_parts(const Weighted *parts, int64_t size,
+// The sum of so many parts, or that is added.
+template <bool adds, size_t... part>
+[[gnu::always_inline]] inline void sum_parts(const Weighted *parts, int64_t size,
                                              float *__restrict sums,
                                              std::index_sequence<part...> /*all*/) {
-    for (int64_t i = 0; i < size; ++i)
-        sums[i] += (... + (parts[part].weight * static_cast<float>(parts[part].first[i])));
+    for (int64_t i = 0; i < size; ++i) {
+        const float sum = (... + (parts[part].weight * static_cast<float>(parts[part].first[i])));
+        sums[i] = adds ? sums[i] + sum : sum;
+    }
 }
 
 WFPSF_VECTORISED void combine(const Weighted *parts, size_t count, int64_t size, float *sums) {
-    std::fill_n(sums, size, 0.0F);
-    constexpr size_t many = 4;
-    for (; count >= many; count -= many, parts += many)
-        add_parts(parts, size, sums, std::make_index_sequence<many>());
+    constexpr size_t many = 3;
+    sum_parts<false>(parts, size, sums, std::make_index_sequence<1>());
+    for (++parts, --count; count >= many; count -= many, parts += many)
+        sum_parts<true>(parts, size, sums, std::make_index_sequence<many>());
     for (; count > 0; --count, ++parts)
-        add_parts(parts, size, sums, std::make_index_sequence<1>());
+        sum_parts<true>(parts, size, sums, std::make_index_sequence<1>());
 }
 
 // The first pixel is the sum of these coefficients; those of the next ones are beside them, those
@@ -79,19 +81,21 @@ WFPSF_VECTORISED void sum(const Taps &of, const float *coefficients, float *pixe
                 std::make_index_sequence<taps * taps>());
 }
 
+// Of so many pixels: where the compiler knows that they are few, it makes no vectors.
 template <class T>
-[[gnu::always_inline]] inline void add_all_of(const float *pixels, T *image, int64_t stride) {
-    for (int64_t y = 0; y < high; ++y)
-        for (int64_t x = 0; x < wide; ++x)
+[[gnu::always_inline]] inline void add_rows_of(const float *pixels, int64_t count, T *image,
+                                               int64_t stride, int64_t rows) {
+    for (int64_t y = 0; y < rows; ++y)
+        for (int64_t x = 0; x < count; ++x)
             image[y * stride + x] += static_cast<T>(pixels[y * wide + x]);
 }
-WFPSF_VECTORISED void add_all(const float *__restrict pixels, float *__restrict image,
-                              int64_t stride) {
-    add_all_of(pixels, image, stride);
+WFPSF_VECTORISED void add_rows(const float *__restrict pixels, int64_t count,
+                               float *__restrict image, int64_t stride, int64_t rows) {
+    add_rows_of(pixels, count, image, stride, rows);
 }
-WFPSF_VECTORISED void add_all(const float *__restrict pixels, double *__restrict image,
-                              int64_t stride) {
-    add_all_of(pixels, image, stride);
+WFPSF_VECTORISED void add_rows(const float *__restrict pixels, int64_t count,
+                               double *__restrict image, int64_t stride, int64_t rows) {
+    add_rows_of(pixels, count, image, stride, rows);
 }
 
 // Taps along an axis for a star that stands so far from the centre of its pixel.
@@ -204,6 +208,14 @@ void LightBlocks::add(const Star &star, std::span<const double> weights, const B
         const int64_t y1 = std::min({block_y + high - 1, top, last_row});
         if (x0 > x1 || y0 > y1)
             continue;
+        if (const Stored *next = &block + 1; next < blocks_.data() + blocks_.size()) {
+            const int64_t nx = std::clamp<int64_t>(base_x + next->x, 0, image.nx - 1);
+            const int64_t ny = base_y + next->y;
+            for (int64_t y = std::max(ny, first_row); y < std::min(ny + high, last_row + 1); ++y) {
+                __builtin_prefetch(&image(nx, y), 1);
+                __builtin_prefetch(&image(std::min(nx + wide - 1, image.nx - 1), y), 1);
+            }
+        }
         const bool left_inside = is_inside(x0, star.x), right_inside = is_inside(x1, star.x);
         const bool low_inside = is_inside(y0, star.y), top_inside = is_inside(y1, star.y);
         if (left_inside && right_inside && low_inside && top_inside)
@@ -225,8 +237,9 @@ void LightBlocks::add(const Star &star, std::span<const double> weights, const B
             continue;
         combine(bright.data(), count, size, coefficients);
         sum(by_samples[static_cast<size_t>(block.per_pixel / 2)], coefficients, pixels);
-        if (!touches && x1 - x0 == wide - 1 && y1 - y0 == high - 1 && image.stride_x == 1) {
-            add_all(pixels, &image(x0, y0), image.stride_y);
+        if (!touches && image.stride_x == 1) {
+            add_rows(pixels + (y0 - block_y) * wide + x0 - block_x, x1 - x0 + 1, &image(x0, y0),
+                     image.stride_y, y1 - y0 + 1);
             continue;
         }
         for (int64_t y = y0; y <= y1; ++y) {

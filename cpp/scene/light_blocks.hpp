@@ -16,7 +16,7 @@ namespace wfpsf {
 
 class LightBlocks {
   public:
-    static constexpr int64_t wide = 32, high = 8; // native pixels
+    static constexpr int64_t wide = 16, high = 16; // native pixels
     static constexpr size_t most_parts = 8;
 
     // Light is a sum of parts, each with a weight of a star's own.
