@@ -70,7 +70,7 @@ class FarTables {
     const FarTable &middle() const { return middle_; } // of the first place
 
   private:
-    FarTables(std::span<const FarLight> at_places, const Region &image, const Extent &extent,
+    FarTables(std::span<const FarLight> at_places, const Region &image, double differences_radius,
               const MiddleLight &middle);
 
     Region image_;

@@ -3,9 +3,9 @@
 
 #include "numerics/cubic_spline.hpp"
 #include "numerics/dispatch.hpp"
+#include "scene/sampled_light.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -98,6 +98,25 @@ WFPSF_VECTORISED void add_rows(const float *__restrict pixels, int64_t count,
     add_rows_of(pixels, count, image, stride, rows);
 }
 
+// Pixels x0..x1, y0..y1.
+struct Area {
+    int64_t x0, x1, y0, y1;
+
+    int64_t nx() const { return x1 - x0 + 1; }
+    int64_t ny() const { return y1 - y0 + 1; }
+    bool empty() const { return nx() <= 0 || ny() <= 0; }
+};
+
+// Stars are anywhere: their pixels are seldom in the cache.
+template <class T> void fetch(View<T> image, const Area &area) {
+    if (area.empty())
+        return;
+    for (int64_t y = area.y0; y <= area.y1; ++y) {
+        __builtin_prefetch(&image(area.x0, y), 1);
+        __builtin_prefetch(&image(area.x1, y), 1);
+    }
+}
+
 // Taps along an axis for a star that stands so far from the centre of its pixel.
 struct Axis {
     std::array<int64_t, taps> sample; // from the pixel's centre
@@ -127,50 +146,52 @@ Taps taps_of(int64_t per_pixel, double fraction_x, double fraction_y) {
     return of;
 }
 
+// Coefficients in units of what is returned.
+float store(const LightBlocks::Block &of, const LightSpline &spline, int16_t *to) {
+    const int64_t n = spline.per_pixel;
+    const Layout layout{n};
+    // Coefficients as near count for no pixel, and would make the unit large.
+    const double near = (of.inner - 2) * static_cast<double>(n);
+    const auto is_near = [near](int64_t at) { return std::abs(static_cast<double>(at)) <= near; };
+    std::vector<float> sorted(static_cast<size_t>(layout.size()));
+    float most = std::numeric_limits<float>::min();
+    for (int64_t r = 0; r < layout.rows(); ++r)
+        for (int64_t i = 0; i < layout.row(); ++i) {
+            const int64_t x = (of.x - layout.margin()) * n + i,
+                          y = (of.y - layout.margin()) * n + r;
+            if (is_near(x) && is_near(y))
+                continue;
+            const float here = spline.coefficients(spline.half * n + x, spline.half * n + y);
+            sorted[static_cast<size_t>((r * n + i % n) * layout.run() + i / n)] = here;
+            most = std::max(most, std::abs(here));
+        }
+    const float unit = most / std::numeric_limits<int16_t>::max();
+    std::ranges::transform(sorted, to, [unit](float coefficient) {
+        return static_cast<int16_t>(std::lround(coefficient / unit));
+    });
+    return unit;
+}
+
 } // namespace
 
 LightBlocks::LightBlocks(std::vector<Block> blocks) {
-    const auto brightest = [](const Block &block) {
-        double most = 0;
-        for (const Part &part : block.parts)
-            most = std::max(most, part.brightest);
-        return most;
+    const auto brightest = [](const Block &of) {
+        return std::ranges::max(of.parts, {}, &Part::brightest).brightest;
     };
+    const auto layout_of = [](const Block &of) { return Layout{of.parts[0].spline->per_pixel}; };
     std::ranges::stable_sort(blocks, std::ranges::greater(), brightest);
-    size_t all = 0;
-    for (const Block &block : blocks)
-        all += block.parts.size() * static_cast<size_t>(Layout{block.per_pixel}.size());
-    coefficients_.resize(all);
+    size_t size = 0;
+    for (const Block &of : blocks)
+        size += of.parts.size() * static_cast<size_t>(layout_of(of).size());
+    coefficients_.resize(size);
     size_t first = 0;
-    std::vector<float> sorted(most_coefficients);
-    for (const Block &block : blocks) {
-        const Layout layout{block.per_pixel};
-        blocks_.push_back({brightest(block), block.x, block.y, block.per_pixel, parts_.size(),
-                           parts_.size() + block.parts.size(), first});
-        for (const Part &part : block.parts) {
-            float most = std::numeric_limits<float>::min();
-            for (int64_t r = 0; r < layout.rows(); ++r)
-                for (int64_t x = 0; x < layout.row(); ++x) {
-                    const int64_t n = block.per_pixel;
-                    const int64_t from_x = (block.x - layout.margin()) * n + x;
-                    const int64_t from_y = (block.y - layout.margin()) * n + r;
-                    const auto is_near = [&](int64_t at) {
-                        return std::abs(static_cast<double>(at)) <=
-                               (block.never - 2) * static_cast<double>(n);
-                    };
-                    const float here = is_near(from_x) && is_near(from_y)
-                                           ? 0
-                                           : (*part.coefficients)(block.half * n + from_x,
-                                                                  block.half * n + from_y);
-                    sorted[static_cast<size_t>((r * n + x % n) * layout.run() + x / n)] = here;
-                    most = std::max(most, std::abs(here));
-                }
-            const float unit = most / std::numeric_limits<int16_t>::max();
-            parts_.push_back({part.number, part.brightest, unit});
-            for (int64_t i = 0; i < layout.rows() * layout.row(); ++i)
-                coefficients_[first + static_cast<size_t>(i)] =
-                    static_cast<int16_t>(std::lround(sorted[static_cast<size_t>(i)] / unit));
-            first += static_cast<size_t>(layout.size());
+    for (const Block &of : blocks) {
+        blocks_.push_back(
+            {brightest(of), of.x, of.y, layout_of(of).per_pixel, parts_.size(), of.parts.size()});
+        for (const Part &part : of.parts) {
+            const float unit = store(of, *part.spline, &coefficients_[first]);
+            parts_.push_back({part.number, part.brightest, unit, first});
+            first += static_cast<size_t>(layout_of(of).size());
         }
     }
 }
@@ -183,71 +204,67 @@ void LightBlocks::add(const Star &star, std::span<const double> weights, const B
         largest = std::max(largest, std::abs(weight));
     const auto base_x = static_cast<int64_t>(std::floor(star.x + 0.5));
     const auto base_y = static_cast<int64_t>(std::floor(star.y + 0.5));
-    const double fraction_x = star.x - static_cast<double>(base_x);
-    const double fraction_y = star.y - static_cast<double>(base_y);
-    const std::array by_samples{taps_of(1, fraction_x, fraction_y),
-                                taps_of(2, fraction_x, fraction_y),
-                                taps_of(4, fraction_x, fraction_y)};
+    const auto taps_for = [&](int64_t per_pixel) {
+        return taps_of(per_pixel, star.x - static_cast<double>(base_x),
+                       star.y - static_cast<double>(base_y));
+    };
+    const std::array taps_by_half{taps_for(1), taps_for(2), taps_for(4)};
     const auto within = [&bounds](double at) {
         return std::pair(static_cast<int64_t>(std::ceil(at - bounds.radius)),
                          static_cast<int64_t>(std::floor(at + bounds.radius)));
     };
     const auto [left, right] = within(star.x);
     const auto [low, top] = within(star.y);
+    const Area all{std::max(left, int64_t{0}), std::min(right, image.nx - 1),
+                   std::max(low, first_row), std::min(top, last_row)};
+    const auto pixels_of = [&](const StoredBlock &of) {
+        const int64_t x = base_x + of.x, y = base_y + of.y;
+        return Area{std::max(x, all.x0), std::min(x + wide - 1, all.x1), std::max(y, all.y0),
+                    std::min(y + high - 1, all.y1)};
+    };
     const auto is_inside = [&bounds](int64_t pixel, double centre) {
         return std::abs(static_cast<double>(pixel) - centre) <= bounds.inner;
     };
     alignas(cache_line) float coefficients[most_coefficients], pixels[high * wide];
-    for (const Stored &block : blocks_) {
-        if (block.brightest * largest <= bounds.floor)
+    for (size_t i = 0; i < blocks_.size(); ++i) {
+        const StoredBlock &of = blocks_[i];
+        if (of.brightest * largest <= bounds.floor)
             break;
-        const int64_t block_x = base_x + block.x, block_y = base_y + block.y;
-        const int64_t x0 = std::max({block_x, left, int64_t{0}});
-        const int64_t x1 = std::min({block_x + wide - 1, right, image.nx - 1});
-        const int64_t y0 = std::max({block_y, low, first_row});
-        const int64_t y1 = std::min({block_y + high - 1, top, last_row});
-        if (x0 > x1 || y0 > y1)
+        if (i + 1 < blocks_.size())
+            fetch(image, pixels_of(blocks_[i + 1]));
+        const Area area = pixels_of(of);
+        if (area.empty())
             continue;
-        if (const Stored *next = &block + 1; next < blocks_.data() + blocks_.size()) {
-            const int64_t nx = std::clamp<int64_t>(base_x + next->x, 0, image.nx - 1);
-            const int64_t ny = base_y + next->y;
-            for (int64_t y = std::max(ny, first_row); y < std::min(ny + high, last_row + 1); ++y) {
-                __builtin_prefetch(&image(nx, y), 1);
-                __builtin_prefetch(&image(std::min(nx + wide - 1, image.nx - 1), y), 1);
-            }
-        }
-        const bool left_inside = is_inside(x0, star.x), right_inside = is_inside(x1, star.x);
-        const bool low_inside = is_inside(y0, star.y), top_inside = is_inside(y1, star.y);
+        const bool left_inside = is_inside(area.x0, star.x);
+        const bool right_inside = is_inside(area.x1, star.x);
+        const bool low_inside = is_inside(area.y0, star.y);
+        const bool top_inside = is_inside(area.y1, star.y);
         if (left_inside && right_inside && low_inside && top_inside)
             continue;
         // The inner part is wider than a block.
         const bool touches = (left_inside || right_inside) && (low_inside || top_inside);
         std::array<Weighted, most_parts> bright;
         size_t count = 0;
-        const int64_t size = Layout{block.per_pixel}.size();
-        for (size_t k = block.first_part; k < block.end_part; ++k) {
-            const StoredPart &part = parts_[k];
+        for (const StoredPart &part : std::span(parts_).subspan(of.first_part, of.parts)) {
             const double weight = weights[part.number];
             if (part.brightest * std::abs(weight) > bounds.floor)
-                bright[count++] = {&coefficients_[block.first + (k - block.first_part) *
-                                                                    static_cast<size_t>(size)],
+                bright[count++] = {&coefficients_[part.first],
                                    static_cast<float>(star.flux * weight) * part.unit};
         }
         if (count == 0)
             continue;
-        combine(bright.data(), count, size, coefficients);
-        sum(by_samples[static_cast<size_t>(block.per_pixel / 2)], coefficients, pixels);
+        combine(bright.data(), count, Layout{of.per_pixel}.size(), coefficients);
+        sum(taps_by_half[static_cast<size_t>(of.per_pixel / 2)], coefficients, pixels);
+        const float *const first =
+            pixels + (area.y0 - base_y - of.y) * wide + area.x0 - base_x - of.x;
         if (!touches && image.stride_x == 1) {
-            add_rows(pixels + (y0 - block_y) * wide + x0 - block_x, x1 - x0 + 1, &image(x0, y0),
-                     image.stride_y, y1 - y0 + 1);
+            add_rows(first, area.nx(), &image(area.x0, area.y0), image.stride_y, area.ny());
             continue;
         }
-        for (int64_t y = y0; y <= y1; ++y) {
-            const float *const row = pixels + (y - block_y) * wide - block_x;
-            for (int64_t x = x0; x <= x1; ++x)
+        for (int64_t y = area.y0; y <= area.y1; ++y)
+            for (int64_t x = area.x0; x <= area.x1; ++x)
                 if (!touches || !is_inside(y, star.y) || !is_inside(x, star.x))
-                    image(x, y) += static_cast<T>(row[x]);
-        }
+                    image(x, y) += static_cast<T>(first[(y - area.y0) * wide + x - area.x0]);
     }
 }
 

@@ -14,22 +14,23 @@
 
 namespace wfpsf {
 
+struct LightSpline;
+
 class LightBlocks {
   public:
     static constexpr int64_t wide = 16, high = 16; // native pixels
     static constexpr size_t most_parts = 8;
 
-    // Light is a sum of parts, each with a weight of a star's own.
+    // Light is a sum of parts, each with a weight of a star's own; those of a block have as many
+    // samples a pixel.
     struct Part {
         size_t number;
         double brightest; // no pixel of the block gets more, wherever the star stands in its pixel
-        const Plane<float> *coefficients;
+        const LightSpline *spline;
     };
     struct Block {
-        int64_t x, y;      // of its first pixel, from the star's
-        int64_t per_pixel; // coefficients along both axes
-        int64_t half;      // native pixels to the star's, from the first coefficient
-        double never;      // no pixel as near to the star is drawn, native pixels along both axes
+        int64_t x, y; // of its first pixel, from the star's
+        double inner; // no pixel as near to the star is drawn, native pixels along both axes
         std::vector<Part> parts;
     };
     explicit LightBlocks(std::vector<Block> blocks);
@@ -47,15 +48,15 @@ class LightBlocks {
     struct StoredPart {
         size_t number;
         double brightest;
-        float unit; // of the coefficients
+        float unit;   // of the coefficients
+        size_t first; // of them
     };
-    struct Stored {
+    struct StoredBlock {
         double brightest; // of the parts
         int64_t x, y, per_pixel;
-        size_t first_part, end_part;
-        size_t first; // coefficient
+        size_t first_part, parts;
     };
-    std::vector<Stored> blocks_;
+    std::vector<StoredBlock> blocks_; // the brightest first
     std::vector<StoredPart> parts_;
     std::vector<int16_t> coefficients_;
 };
