@@ -12,8 +12,6 @@ namespace wfpsf {
 
 namespace {
 
-constexpr int64_t wide = LightBlocks::wide, high = LightBlocks::high;
-
 LightBlocks blocks_of(const MiddleLight &light) {
     std::vector<LightBlocks::Block> blocks;
     for (const MiddleLight::Block &of : light.blocks)
@@ -28,19 +26,19 @@ LightBlocks blocks_of(const MiddleLight &light) {
 FarTable::FarTable(const MiddleLight &light) : radius_(light.radius), blocks_(blocks_of(light)) {
     for (const MiddleLight::Block &of : light.blocks)
         if (of.brightest > light.floor)
-            shares_.push_back({of.brightest, of.light, of.x, of.y});
+            for (const MiddleLight::Cell &cell : of.cells)
+                shares_.push_back({of.brightest, cell.light, cell.x, cell.y});
     std::ranges::stable_sort(shares_, std::ranges::greater(), &Share::brightest);
 }
 
 double FarTable::light(double within, double inner, double floor) const {
-    // How much of a block's area is at most so far from the star.
+    // How much of an area is at most so far from the star.
     const auto part = [](const Share &of, double radius) {
-        const auto along = [radius](int64_t first, int64_t size) {
-            const double at = static_cast<double>(first) - 0.5,
-                         end = at + static_cast<double>(size);
+        const auto along = [radius](int64_t first) {
+            const double at = static_cast<double>(first) - 0.5, end = at + MiddleLight::Cell::size;
             return std::max(std::min(end, radius) - std::max(at, -radius), 0.0);
         };
-        return along(of.x, wide) * along(of.y, high);
+        return along(of.x) * along(of.y);
     };
     double sum = 0;
     for (const Share &of : shares_) {

@@ -36,10 +36,10 @@ class FarTable {
   private:
     double radius_;
     struct Share {
-        double brightest, light; // in a pixel; on the average
-        int64_t x, y;            // of a block's first pixel, from the star's pixel
+        double brightest, light; // in a pixel of its block; on the average of its own
+        int64_t x, y;            // of the first pixel, from the star's
     };
-    std::vector<Share> shares_; // the brightest first
+    std::vector<Share> shares_; // the brightest blocks' first
     LightBlocks blocks_;
 };
 

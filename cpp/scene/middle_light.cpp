@@ -17,12 +17,17 @@ constexpr double coarse = 1e-4, better = 8;
 
 constexpr int64_t beside = 4; // native pixels beyond a block that its coefficients follow from
 
+// Those that pixels x.., y.. from the star's may fall on, wherever in its pixel the star stands.
+SampleRange samples_of(int64_t x, int64_t y, int64_t nx, int64_t ny, int64_t per_pixel) {
+    const int64_t half = per_pixel / 2;
+    return {x * per_pixel - half, y * per_pixel - half, (nx - 1) * per_pixel + 2 * half + 1,
+            (ny - 1) * per_pixel + 2 * half + 1};
+}
+
 } // namespace
 
 SampleRange MiddleLight::Block::samples(int64_t n, int64_t count) const {
-    const int64_t half = n / 2;
-    return {x * n - half, y * n - half, (count * wide - 1) * n + 2 * half + 1,
-            (high - 1) * n + 2 * half + 1};
+    return samples_of(x, y, count * wide, high, n);
 }
 
 bool MiddleLight::Block::reaches_within(double r) const {
@@ -91,12 +96,16 @@ MiddleLight::MiddleLight(const FarLight &light, const Psf *exact, double to, dou
 void MiddleLight::find_tolerances(const SampledLight &light) {
     std::vector<std::pair<double, Block *>> by_distance;
     for (Block &of : blocks) {
-        double sum = 0, count = 0;
-        light.on(of.samples(light.per_pixel), inner, [&](float here) {
-            sum += static_cast<double>(here);
-            ++count;
-        });
-        of.light = sum / std::max(count, 1.0);
+        for (int64_t y = of.y; y < of.y + high; y += Cell::size)
+            for (int64_t x = of.x; x < of.x + wide; x += Cell::size) {
+                double sum = 0, count = 0;
+                light.on(samples_of(x, y, Cell::size, Cell::size, light.per_pixel), inner,
+                         [&](float here) {
+                             sum += static_cast<double>(here);
+                             ++count;
+                         });
+                of.cells.push_back({x, y, sum / std::max(count, 1.0)});
+            }
         of.brightest = light.largest(of.samples(light.per_pixel), inner);
         by_distance.emplace_back(std::hypot(of.x + wide / 2, of.y + high / 2), &of);
     }

@@ -16,12 +16,18 @@ struct MiddleLight {
     // As far as an exact PSF reaches, if there is one, it stands for far light.
     MiddleLight(const FarLight &light, const Psf *exact, double radius, double floor);
 
+    struct Cell { // a part of a block, along both axes
+        static constexpr int64_t size = 8;
+        int64_t x, y; // as blocks'
+        double light; // of a pixel on the average
+    };
     struct Block {
-        int64_t x, y;
-        double brightest = 0, light = 0; // in a pixel; on the average
-        double tolerance = 0;            // what splines may be off
-        double off = 0;                  // what those of one sample a pixel are
-        int64_t per_pixel = 1;           // what it takes
+        int64_t x, y; // of the first pixel, from the star's
+        double brightest = 0;
+        double tolerance = 0;  // what splines may be off
+        double off = 0;        // what those of one sample a pixel are
+        int64_t per_pixel = 1; // what it takes
+        std::vector<Cell> cells = {};
 
         // The samples that its pixels may fall on, and those of blocks beside it.
         SampleRange samples(int64_t per_pixel, int64_t blocks = 1) const;
