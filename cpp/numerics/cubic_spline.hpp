@@ -13,6 +13,12 @@ namespace wfpsf {
 // the borders they are mirrored.
 void to_spline_coefficients(Plane<float> &samples);
 
+// The samples again.
+void to_spline_samples(Plane<float> &coefficients);
+
+// Coefficients of the same spline as one of twice as many samples.
+Plane<float> refined_spline(const Plane<float> &coefficients);
+
 // Of coefficients -1, 0, 1, 2 at t of 0..1.
 inline std::array<double, 4> spline_weights(double t) {
     const double s = 1 - t;

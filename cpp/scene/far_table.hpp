@@ -3,10 +3,10 @@
 // blocks of pixels alone that are bright enough.
 #pragma once
 
-#include "image/view.hpp"
 #include "optics/far_light.hpp"
 #include "optics/psf.hpp"
 #include "optics/varying_psf.hpp"
+#include "scene/light_blocks.hpp"
 
 #include <cstdint>
 #include <span>
@@ -15,25 +15,13 @@
 
 namespace wfpsf {
 
-// Light about a star that stands in the middle, as a fraction of all of it in a native pixel at each
-// sample.
-struct SampledLight {
-    int64_t per_pixel;   // samples a native pixel
-    int64_t half;        // native pixels from the star to the borders
-    Plane<float> sample; // the star's is at half * per_pixel along both axes
-
-    SampledLight(int64_t samples, double radius); // a native pixel; native pixels
-    // Far light beyond `inner`; what is below `floor` may be missing.
-    void add(const FarLight &light, double inner, double floor);
-    // A PSF out to its radius.
-    void add(const Psf &psf);
-};
+struct MiddleLight;
 
 class FarTable {
   public:
-    FarTable(SampledLight light, double radius);
+    explicit FarTable(const MiddleLight &light);
     double radius() const { return radius_; }
-    int64_t memory() const { return light_.nx() * light_.ny() * int64_t{sizeof(float)}; }
+    int64_t memory() const { return blocks_.memory(); } // bytes held
 
     // The share of the light that add() gives to pixels at most `within` from the star along both
     // axes, about.
@@ -41,22 +29,19 @@ class FarTable {
 
     // Adds a star's light to rows first_row..last_row of an image of native pixels, between `inner`
     // and the table's radius along either axis, where there is more than `floor` of it. That is a
-    // share of the star's light.
+    // share of the star's light; `inner` is a pixel or more beyond where far light begins.
     template <class T>
     void add(const Star &star, double inner, double floor, View<T> image, int64_t first_row,
              int64_t last_row) const;
 
   private:
-    int64_t per_pixel_, half_;
     double radius_;
-    // Spline coefficients, those of a row of one phase side by side:
-    // coefficient (x * per_pixel + u, y * per_pixel + v) at (x, (y * per_pixel + v) * per_pixel + u).
-    Plane<float> light_;
-    struct Block {               // of some native pixels along both axes
-        double brightest, light; // in a pixel; of all
-        int64_t x, y;            // of its first pixel, from the star's pixel
+    struct Share {
+        double brightest, light; // in a pixel of its block; on the average of its own
+        int64_t x, y;            // of the first pixel, from the star's
     };
-    std::vector<Block> blocks_; // the brightest first
+    std::vector<Share> shares_; // the brightest blocks' first
+    LightBlocks blocks_;
 };
 
 // All over an image: the light of its middle, and how that of other places differs, as a polynomial
@@ -84,12 +69,16 @@ class FarTables {
     void add(const Star &star, double x, double y, double inner, double floor, View<T> image,
              int64_t first_row, int64_t last_row) const;
     const FarTable &middle() const { return middle_; } // of the first place
-    int64_t memory() const;                            // bytes held
+    int64_t memory() const { return middle_.memory() + differences_.memory(); } // bytes held
 
   private:
+    FarTables(std::span<const FarLight> at_places, const Region &image, double differences_radius,
+              const MiddleLight &middle);
+
     Region image_;
+    double differences_radius_;
     FarTable middle_;
-    std::vector<FarTable> differences_; // coefficients of x, x^2, y, y^2, x y, ...
+    LightBlocks differences_; // coefficients of x, x^2, y, y^2, x y, ...
 };
 
 } // namespace wfpsf

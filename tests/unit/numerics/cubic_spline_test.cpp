@@ -50,5 +50,26 @@ TEST(CubicSpline, GoesThroughItsSamplesAndIsAWaveBetween) {
     }
 }
 
+TEST(CubicSpline, GivesItsSamplesBackAndIsTheSameWhenRefined) {
+    constexpr int64_t nx = 90, ny = 81;
+    Plane<float> plane(nx, ny);
+    for (int64_t y = 0; y < ny; ++y)
+        for (int64_t x = 0; x < nx; ++x)
+            plane(x, y) = static_cast<float>((x * 7 + y * 13) % 11);
+    const Plane<float> samples = plane;
+    to_spline_coefficients(plane);
+    const Plane<float> fine = refined_spline(plane);
+    ASSERT_EQ(fine.nx(), 2 * nx - 1);
+    ASSERT_EQ(fine.ny(), 2 * ny - 1);
+    for (int64_t k = 0; k < 50; ++k) {
+        const double x = 2.3 + 1.67 * static_cast<double>(k), y = 2.8 + static_cast<double>(k);
+        EXPECT_NEAR(spline_at(fine, 2 * x, 2 * y), spline_at(plane, x, y), 3e-5);
+    }
+    to_spline_samples(plane);
+    for (int64_t y = 0; y < ny; ++y)
+        for (int64_t x = 0; x < nx; ++x)
+            ASSERT_NEAR(plane(x, y), samples(x, y), 3e-5);
+}
+
 } // namespace
 } // namespace wfpsf
