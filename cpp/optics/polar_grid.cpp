@@ -12,8 +12,9 @@ namespace wfpsf {
 
 namespace {
 
-constexpr int64_t lanes = FilterTable::lanes;
-typedef float Lanes [[gnu::vector_size(4 * lanes)]];
+// Terms of a place, or rays, by name: loops over so few of them the compiler would rather unroll.
+constexpr int64_t lanes = FilterTable<float>::lanes;
+template <class T> struct Vector { typedef T type [[gnu::vector_size(lanes * sizeof(T))]]; };
 
 constexpr int64_t together = 32; // distances, or lines of an image
 constexpr int64_t run = 128;     // samples of such a line that are drawn by the same filters
@@ -22,14 +23,15 @@ constexpr int64_t run = 128;     // samples of such a line that are drawn by the
 constexpr double worst = 0.1, fainter = 4;
 
 // out[ray] = a line at the ray's place, for all terms side by side.
-template <int64_t vectors>
-WFPSF_VECTORISED void onto_rays(const float *line, double first, double step, int64_t rays,
-                                const FilterTable &filter, float *out) {
-    float w[FilterTable::most_taps];
+template <int64_t vectors, class T>
+WFPSF_VECTORISED void onto_rays(const T *line, double first, double step, int64_t rays,
+                                const FilterTable<T> &filter, T *out) {
+    using Lanes = typename Vector<T>::type;
+    T w[FilterTable<T>::most_taps];
     const int64_t taps = filter.taps();
     for (int64_t ray = 0; ray < rays; ++ray) {
         const int64_t at = filter.weights(first + static_cast<double>(ray) * step, w);
-        const float *const from = line + at * vectors * lanes;
+        const T *const from = line + at * vectors * lanes;
         // Odd taps by themselves, so that one sum need not wait for the other.
         Lanes even[vectors] = {}, odd[vectors] = {};
         for (int64_t tap = 0; tap < taps; tap += 2)
@@ -48,12 +50,14 @@ WFPSF_VECTORISED void onto_rays(const float *line, double first, double step, in
 }
 
 // out[i] = a line across rays at evenly spaced places.
-WFPSF_VECTORISED void across_rays(const float *line, double first, double step, int64_t count,
-                                  const FilterTable &filter, float *out) {
-    float w[FilterTable::most_taps];
+template <class T>
+WFPSF_VECTORISED void across_rays(const T *line, double first, double step, int64_t count,
+                                  const FilterTable<T> &filter, T *out) {
+    using Lanes = typename Vector<T>::type;
+    T w[FilterTable<T>::most_taps];
     const int64_t taps = filter.padded();
     for (int64_t i = 0; i < count; ++i) {
-        const float *const from = line + filter.weights(first + static_cast<double>(i) * step, w);
+        const T *const from = line + filter.weights(first + static_cast<double>(i) * step, w);
         Lanes sums = {};
         for (int64_t tap = 0; tap < taps; tap += lanes) {
             Lanes some, weights;
@@ -61,7 +65,7 @@ WFPSF_VECTORISED void across_rays(const float *line, double first, double step, 
             std::memcpy(&weights, w + tap, sizeof(weights));
             sums += weights * some;
         }
-        float sum = 0;
+        T sum = 0;
         for (int64_t lane = 0; lane < lanes; ++lane)
             sum += sums[lane];
         out[i] = sum;
@@ -70,8 +74,9 @@ WFPSF_VECTORISED void across_rays(const float *line, double first, double step, 
 
 // Samples of all terms side by side: out[(i * along + j) * deep + m] is at (first_x + i,
 // first_y + j) if i counts across the x axis, else at (first_x + j, first_y + i).
+template <class T>
 void interleave(const ScalingTerms &terms, size_t count, bool across_x, Range lines, Range along,
-                int64_t deep, float *out) {
+                int64_t deep, T *out) {
     const int64_t width = along.end - along.begin, height = lines.end - lines.begin;
     for (size_t m = 0; m < count; ++m, ++out) {
         const View<const double> term = terms[m].view();
@@ -79,12 +84,12 @@ void interleave(const ScalingTerms &terms, size_t count, bool across_x, Range li
             for (int64_t j = 0; j < width; ++j)
                 for (int64_t i = 0; i < height; ++i)
                     out[(i * width + j) * deep] =
-                        static_cast<float>(term.row(along.begin + j)[lines.begin + i]);
+                        static_cast<T>(term.row(along.begin + j)[lines.begin + i]);
         else
             for (int64_t i = 0; i < height; ++i)
                 for (int64_t j = 0; j < width; ++j)
                     out[(i * width + j) * deep] =
-                        static_cast<float>(term.row(lines.begin + i)[along.begin + j]);
+                        static_cast<T>(term.row(lines.begin + i)[along.begin + j]);
     }
 }
 
@@ -96,14 +101,14 @@ ScalingTerms::Light light_of(const ScalingTerms &terms, const Side &side, Range 
 
 } // namespace
 
-PolarFilters::PolarFilters(const PolarBand &band, double eps) {
+template <class T> PolarFilters<T>::PolarFilters(const PolarBand &band, double eps) {
     for (double missed = best; missed <= worst; missed *= fainter)
-        sets_.push_back({eps / missed, FilterTable({band.along_axes, missed}),
-                         FilterTable({band_of_distances, missed}),
-                         FilterTable({band_of_rays, missed})});
+        sets_.push_back({eps / missed, FilterTable<T>({band.along_axes, missed}),
+                         FilterTable<T>({PolarGrid::band_of_distances, missed}),
+                         FilterTable<T>({PolarGrid::band_of_rays, missed})});
 }
 
-const PolarFilters::Set &PolarFilters::for_light(double light) const {
+template <class T> auto PolarFilters<T>::for_light(double light) const -> const Set & {
     size_t i = 0;
     while (i + 1 < sets_.size() && light <= sets_[i + 1].up_to)
         ++i;
@@ -120,20 +125,20 @@ PolarGrid::PolarGrid(const ScalingTerms &terms, const PolarBand &band, double in
     const double farthest = std::exp(start_ + length_);
     highest_ = band.along_rays * farthest;
     highest_needed_ = band.along_rays * outer * largest_;
-    step_ = PolarFilters::band_of_rays / (band.along_axes * farthest);
-    middle_ray_ = static_cast<int64_t>(std::ceil(1 / step_)) +
-                  PolarFilters::half_width(PolarFilters::band_of_rays) + 1;
+    step_ = band_of_rays / (band.along_axes * farthest);
+    middle_ray_ = static_cast<int64_t>(std::ceil(1 / step_)) + longest(band_of_rays) + 1;
     rays_ = (2 * middle_ray_ + batch) / batch * batch;
 }
 
+template <class T>
 void PolarGrid::sample(const Side &side, Range rays, int64_t samples, double negligible,
-                       const PolarFilters &filters, Sampled &out) const {
+                       const PolarFilters<T> &filters, Sampled<T> &out) const {
     const double low = slope(rays.begin), high = slope(rays.end - 1);
     const auto among = [this](double from, double to) {
         return Range{std::max<int64_t>(static_cast<int64_t>(terms_.middle() + from), 0),
                      std::min(static_cast<int64_t>(terms_.middle() + to) + 2, terms_.size())};
     };
-    std::vector<const FilterTable *> chosen;
+    std::vector<const FilterTable<T> *> chosen;
     out.terms = 1;
     for (int64_t i = 0; i < samples; i += together) {
         const auto distance = [&](int64_t j) {
@@ -149,25 +154,25 @@ void PolarGrid::sample(const Side &side, Range rays, int64_t samples, double neg
     }
     const int64_t vectors = (static_cast<int64_t>(out.terms) + lanes - 1) / lanes;
     if (vectors == 1)
-        sample<1>(side, rays, samples, chosen, out);
+        sample<1, T>(side, rays, samples, chosen, out);
     else if (vectors == 2)
-        sample<2>(side, rays, samples, chosen, out);
+        sample<2, T>(side, rays, samples, chosen, out);
     else
-        sample<most_terms / lanes>(side, rays, samples, chosen, out);
+        sample<most_terms / lanes, T>(side, rays, samples, chosen, out);
 }
 
-template <int64_t vectors>
+template <int64_t vectors, class T>
 void PolarGrid::sample(const Side &side, Range rays, int64_t samples,
-                       std::span<const FilterTable *const> filters, Sampled &out) const {
+                       std::span<const FilterTable<T> *const> filters, Sampled<T> &out) const {
     out.deep = vectors * lanes;
     if (out.at.nx() < sector * out.deep || out.at.ny() < samples)
-        out.at = Plane<float>::unset(sector * out.deep, samples);
+        out.at = Plane<T>::unset(sector * out.deep, samples);
     const double low = slope(rays.begin), high = slope(rays.end - 1), middle = terms_.middle();
-    std::vector<float> terms, line;
-    float w[FilterTable::most_taps];
+    std::vector<T> terms, line;
+    T w[FilterTable<T>::most_taps];
     for (int64_t begin = 0; begin < samples; begin += together) {
         const int64_t end = std::min(begin + together, samples);
-        const FilterTable &filter = *filters[static_cast<size_t>(begin / together)];
+        const FilterTable<T> &filter = *filters[static_cast<size_t>(begin / together)];
         const auto distance = [&](int64_t i) {
             return std::exp(start_ +
                             length_ * static_cast<double>(i) / static_cast<double>(samples));
@@ -190,10 +195,11 @@ void PolarGrid::sample(const Side &side, Range rays, int64_t samples,
             const double here = distance(i);
             const int64_t first =
                 filter.weights(middle + static_cast<double>(side.sign) * here, w) - lines.begin;
-            const float *const start = &terms[static_cast<size_t>(first * length)];
+            const T *const start = &terms[static_cast<size_t>(first * length)];
             sum_blocks(w, filter.taps(), &start, 1, length, blocks_for(length), line.data());
-            onto_rays<vectors>(line.data(), middle + here * low - static_cast<double>(along.begin),
-                               here * step_, rays.end - rays.begin, filter, out.at.view().row(i));
+            onto_rays<vectors, T>(
+                line.data(), middle + here * low - static_cast<double>(along.begin), here * step_,
+                rays.end - rays.begin, filter, out.at.view().row(i));
         }
     }
 }
@@ -203,13 +209,14 @@ double PolarGrid::place(double in_image, int64_t per_ray) const {
 }
 
 Range PolarGrid::drawn_from(int64_t per_ray) const {
-    const int64_t around = PolarFilters::half_width(PolarFilters::band_of_distances);
+    const int64_t around = longest(band_of_distances);
     return {std::max<int64_t>(static_cast<int64_t>(place(inner_, per_ray)) - around + 1, 0),
             std::min(static_cast<int64_t>(place(outer_, per_ray)) + around + 1, per_ray)};
 }
 
-void PolarGrid::draw(const Side &side, const Plane<float> &on_rays, int64_t per_ray,
-                     const PolarFilters &filters, Plane<double> &image) const {
+template <class T>
+void PolarGrid::draw(const Side &side, const Plane<T> &on_rays, int64_t per_ray,
+                     const PolarFilters<T> &filters, Plane<double> &image) const {
     const double middle = static_cast<double>(image.nx() - 1) / 2;
     // Where the terms of all colours lie that make up these places.
     const auto among = [this](double from, double to) {
@@ -218,8 +225,8 @@ void PolarGrid::draw(const Side &side, const Plane<float> &on_rays, int64_t per_
             static_cast<int64_t>(terms_.middle() + std::max(to * largest_, to * smallest_)) + 2};
     };
     const int64_t first_sample = drawn_from(per_ray).begin;
-    std::vector<float> line(static_cast<size_t>(blocks_for(rays_ + block))), drawn(run);
-    float w[FilterTable::most_taps];
+    std::vector<T> line(static_cast<size_t>(blocks_for(rays_ + block))), drawn(run);
+    T w[FilterTable<T>::most_taps];
     const auto first = static_cast<int64_t>(middle + inner_) + 1;
     const auto last = static_cast<int64_t>(middle + outer_);
     for (int64_t begin = first; begin <= last; begin += together) {
@@ -251,7 +258,7 @@ void PolarGrid::draw(const Side &side, const Plane<float> &on_rays, int64_t per_
                 const int64_t rays =
                     static_cast<int64_t>(ray(x1 - 1)) + of_rays.half_width() + 1 - first_ray;
                 const int64_t row = of_distances.weights(place(here, per_ray), w) - first_sample;
-                const float *const start = on_rays.view().row(row) + first_ray;
+                const T *const start = on_rays.view().row(row) + first_ray;
                 sum_blocks(w, of_distances.taps(), &start, 1, on_rays.nx(), blocks_for(rays),
                            line.data());
                 across_rays(line.data(), ray(x0) - static_cast<double>(first_ray), per_sample,
@@ -264,5 +271,16 @@ void PolarGrid::draw(const Side &side, const Plane<float> &on_rays, int64_t per_
         }
     }
 }
+
+template class PolarFilters<float>;
+template class PolarFilters<double>;
+template void PolarGrid::sample(const Side &, Range, int64_t, double, const PolarFilters<float> &,
+                                Sampled<float> &) const;
+template void PolarGrid::sample(const Side &, Range, int64_t, double, const PolarFilters<double> &,
+                                Sampled<double> &) const;
+template void PolarGrid::draw(const Side &, const Plane<float> &, int64_t,
+                              const PolarFilters<float> &, Plane<double> &) const;
+template void PolarGrid::draw(const Side &, const Plane<double> &, int64_t,
+                              const PolarFilters<double> &, Plane<double> &) const;
 
 } // namespace wfpsf

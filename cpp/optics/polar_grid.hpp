@@ -10,6 +10,7 @@
 #include "optics/scaling_terms.hpp"
 
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace wfpsf {
@@ -26,25 +27,21 @@ struct PolarBand {
     double along_axes, along_rays;
 };
 
-// Filters for places of so much light, each of which may miss some part of eps.
-class PolarFilters {
+// Filters for places of so much light, each of which may miss some part of eps; for sums in single
+// or double precision.
+template <class T> class PolarFilters {
   public:
     struct Set {
         double up_to;
-        FilterTable terms, distances, rays; // of: the terms; rays, along them; rays, across
+        FilterTable<T> terms, distances, rays; // of: the terms; rays, along them; rays, across
     };
     PolarFilters(const PolarBand &band, double eps);
 
     const Set &for_light(double light) const;
     double most_light() const { return sets_[0].up_to; }
 
-    // Bands of what stands on rays, in cycles a sample.
-    static constexpr double band_of_distances = 0.25, band_of_rays = 0.35;
-    // What the longest ones miss: little enough for single precision.
-    static constexpr double best = 1e-7;
-    static int half_width(double bandwidth) {
-        return BandlimitedInterpolator(bandwidth, best).half_width();
-    }
+    // What the longest ones miss: about as much as digits do in single precision.
+    static constexpr double best = std::is_same_v<T, float> ? 1e-7 : 1e-9;
 
   private:
     std::vector<Set> sets_; // from the longest to the shortest
@@ -70,26 +67,34 @@ class PolarGrid {
 
     // The terms on a sector's rays: so many samples a ray. Leaves out terms that are negligible
     // together; of the others, `deep` numbers a ray.
-    struct Sampled {
+    template <class T> struct Sampled {
         size_t terms;
         int64_t deep;
-        Plane<float> at; // row: distance; number: ray * deep + term
+        Plane<T> at; // row: distance; number: ray * deep + term
     };
+    template <class T>
     void sample(const Side &side, Range rays, int64_t samples, double negligible,
-                const PolarFilters &filters, Sampled &out) const;
+                const PolarFilters<T> &filters, Sampled<T> &out) const;
 
     // What samples of `per_ray` the image is drawn from.
     Range drawn_from(int64_t per_ray) const;
     // A side of the image from these samples on its rays: (ray, distance).
-    void draw(const Side &side, const Plane<float> &on_rays, int64_t per_ray,
-              const PolarFilters &filters, Plane<double> &image) const;
+    template <class T>
+    void draw(const Side &side, const Plane<T> &on_rays, int64_t per_ray,
+              const PolarFilters<T> &filters, Plane<double> &image) const;
     // Numbers that stand idle behind a row of rays.
     static const int64_t padding;
 
+    // Bands of what stands on rays, in cycles a sample, and the half width of the longest filter.
+    static constexpr double band_of_distances = 0.25, band_of_rays = 0.35;
+    static int longest(double bandwidth) {
+        return BandlimitedInterpolator(bandwidth, PolarFilters<double>::best).half_width();
+    }
+
   private:
-    template <int64_t vectors>
+    template <int64_t vectors, class T>
     void sample(const Side &side, Range rays, int64_t samples,
-                std::span<const FilterTable *const> filters, Sampled &out) const;
+                std::span<const FilterTable<T> *const> filters, Sampled<T> &out) const;
     double slope(int64_t ray) const { return static_cast<double>(ray - middle_ray_) * step_; }
     double place(double in_image, int64_t per_ray) const; // among a ray's samples
 

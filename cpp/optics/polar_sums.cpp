@@ -21,7 +21,7 @@ constexpr int64_t batch = PolarGrid::batch;
 
 // Frequencies that are of no use fade out over so large a part of the highest one, and to so
 // little; at least so many are kept.
-constexpr double fading = 0.5, faded = 1e-7, fewest_kept = 0.35;
+constexpr double fading = 0.5, faded = PolarFilters<double>::best, fewest_kept = 0.35;
 
 // Shares of eps: what each of four filters misses of the light around them, of which any may err by
 // more at one place than by all frequencies' light; and frequencies left out. The rest are digits.
@@ -33,8 +33,8 @@ constexpr double octave = 0.5, thinnest = 0.8;
 // How much farther than the image filters along rays reach, in periods of the highest frequency.
 double ends() {
     static const double fading_out = BandlimitedInterpolator(0.25, faded).half_width() / 2.0;
-    constexpr double band = PolarFilters::band_of_distances;
-    return (fading_out + 1) / fading + PolarFilters::half_width(band) * band / fewest_kept;
+    constexpr double band = PolarGrid::band_of_distances;
+    return (fading_out + 1) / fading + PolarGrid::longest(band) * band / fewest_kept;
 }
 
 // exp(2 pi i f turns) at frequencies f = 0, 1, ..., and so many times it.
@@ -58,7 +58,8 @@ double passed(const BandlimitedInterpolator &interpolator, double frequency) {
 }
 
 // Terms of a batch of rays, `deep` numbers each, become complex numbers of two.
-WFPSF_VECTORISED void pack(const float *terms, int64_t deep, int64_t pairs, Complex *out) {
+template <class T>
+WFPSF_VECTORISED void pack(const T *terms, int64_t deep, int64_t pairs, Complex *out) {
     for (int64_t r = 0; r < batch; ++r, terms += deep)
         for (int64_t p = 0; p < pairs; ++p)
             *out++ = {terms[2 * p], terms[2 * p + 1]};
@@ -88,9 +89,10 @@ WFPSF_VECTORISED void multiply(const Factors *factors, const Complex *same, cons
 } // namespace
 
 // The places between two squares.
-class PolarSums::Ring {
+template <class T> class PolarSums::Ring {
   public:
-    Ring(const PolarSums &of, std::span<const ScaledColour> colours, const PolarGrid &grid);
+    Ring(const PolarSums &of, const PolarFilters<T> &filters, std::span<const ScaledColour> colours,
+         const PolarGrid &grid);
     void set(std::span<Plane<double>> sums, const Progress &progress);
 
   private:
@@ -100,19 +102,21 @@ class PolarSums::Ring {
     void transform(Range rays);
 
     const PolarSums &of_;
+    const PolarFilters<T> &filters_;
     const PolarGrid &grid_;
     int64_t pairs_;                               // of terms
     int64_t samples_ = 0, kept_ = 0, needed_ = 0; // of a ray, and of the sums on it; frequencies
     std::vector<std::vector<Factors>> factors_;   // [sum][frequency * pairs_ + pair]
-    PolarGrid::Sampled sampled_;
-    std::vector<Plane<float>> sums_; // (ray, distance)
+    PolarGrid::Sampled<T> sampled_;
+    std::vector<Plane<T>> sums_; // (ray, distance)
     std::vector<Complex> in_, out_;
 };
 
 // For the colours of one sum, of each term: the transfer at frequencies in periods of a ray, in
 // units of all colours' weight.
-std::vector<std::vector<Complex>> PolarSums::Ring::transfer(std::span<const ScaledColour> colours,
-                                                            size_t sum) const {
+template <class T>
+std::vector<std::vector<Complex>>
+PolarSums::Ring<T>::transfer(std::span<const ScaledColour> colours, size_t sum) const {
     const auto frequencies = static_cast<size_t>(grid_.highest() * grid_.length()) + 1;
     std::vector<std::vector<Complex>> transfer(of_.terms_.count(),
                                                std::vector<Complex>(frequencies));
@@ -134,8 +138,9 @@ std::vector<std::vector<Complex>> PolarSums::Ring::transfer(std::span<const Scal
 
 // The highest frequency that counts: one is found only so far from the axis that it can be as high,
 // and light beyond the image is of no use.
-double PolarSums::Ring::highest_bright(const std::vector<std::vector<Complex>> &transfer,
-                                       double weight) const {
+template <class T>
+double PolarSums::Ring<T>::highest_bright(const std::vector<std::vector<Complex>> &transfer,
+                                          double weight) const {
     const auto is_bright = [&](double frequency) {
         const auto f = static_cast<size_t>(frequency * grid_.length());
         const double from = std::max(std::exp(grid_.start()), frequency / of_.band_.along_axes);
@@ -150,9 +155,11 @@ double PolarSums::Ring::highest_bright(const std::vector<std::vector<Complex>> &
     return static_cast<double>(f + 1) / grid_.length();
 }
 
-PolarSums::Ring::Ring(const PolarSums &of, std::span<const ScaledColour> colours,
-                      const PolarGrid &grid)
-    : of_(of), grid_(grid), pairs_(static_cast<int64_t>(of.terms_.count() + 1) / 2) {
+template <class T>
+PolarSums::Ring<T>::Ring(const PolarSums &of, const PolarFilters<T> &filters,
+                         std::span<const ScaledColour> colours, const PolarGrid &grid)
+    : of_(of), filters_(filters), grid_(grid),
+      pairs_(static_cast<int64_t>(of.terms_.count() + 1) / 2) {
     const double highest = grid.highest(), length = grid.length();
     double band = fewest_kept * highest;
     std::vector<std::vector<std::vector<Complex>>> transfers;
@@ -166,7 +173,7 @@ PolarSums::Ring::Ring(const PolarSums &of, std::span<const ScaledColour> colours
     const double fade = fading * highest;
     samples_ = good_fft_length(static_cast<int64_t>(std::ceil((highest + band + fade) * length)));
     kept_ = good_fft_length(
-        static_cast<int64_t>(std::ceil(band * length / PolarFilters::band_of_distances)));
+        static_cast<int64_t>(std::ceil(band * length / PolarGrid::band_of_distances)));
     needed_ = std::min({static_cast<int64_t>(highest * length) + 1,
                         static_cast<int64_t>((band + fade) * length) + 1, (kept_ + 1) / 2});
     const double sharpest = 2 * band + fade; // cycles, one of which is a filter's sample
@@ -191,7 +198,7 @@ PolarSums::Ring::Ring(const PolarSums &of, std::span<const ScaledColour> colours
 }
 
 // Two terms at a time are one complex number, and so are two rays of a sum.
-void PolarSums::Ring::transform(Range rays) {
+template <class T> void PolarSums::Ring<T>::transform(Range rays) {
     const auto pairs = static_cast<int64_t>((sampled_.terms + 1) / 2);
     const int64_t wide = batch * pairs, half = batch / 2;
     const int64_t narrow = half * static_cast<int64_t>(sums_.size());
@@ -226,16 +233,17 @@ void PolarSums::Ring::transform(Range rays) {
             for (int64_t row = 0; row < sums_[s].ny(); ++row) {
                 const Complex *const two =
                     at(out_, (first_row + row) * narrow + static_cast<int64_t>(s) * half);
-                float *const sum = sums_[s].view().row(row) + first;
+                T *const sum = sums_[s].view().row(row) + first;
                 for (int64_t r = 0; r < half; ++r) {
-                    sum[2 * r] = static_cast<float>(two[r].real());
-                    sum[2 * r + 1] = static_cast<float>(two[r].imag());
+                    sum[2 * r] = static_cast<T>(two[r].real());
+                    sum[2 * r + 1] = static_cast<T>(two[r].imag());
                 }
             }
     }
 }
 
-void PolarSums::Ring::set(std::span<Plane<double>> sums, const Progress &progress) {
+template <class T>
+void PolarSums::Ring<T>::set(std::span<Plane<double>> sums, const Progress &progress) {
     constexpr Side sides[] = {{false, -1}, {false, 1}, {true, -1}, {true, 1}};
     const double steps = static_cast<double>(std::size(sides) * static_cast<size_t>(grid_.rays()));
     double done = 0;
@@ -243,34 +251,35 @@ void PolarSums::Ring::set(std::span<Plane<double>> sums, const Progress &progres
         for (int64_t first = 0; first < grid_.rays(); first += PolarGrid::sector) {
             progress.report(done / steps);
             const Range rays{first, std::min(first + PolarGrid::sector, grid_.rays())};
-            grid_.sample(side, rays, samples_, of_.negligible_, of_.filters_, sampled_);
+            grid_.sample(side, rays, samples_, of_.negligible_, filters_, sampled_);
             transform(rays);
             done += static_cast<double>(rays.end - rays.begin);
         }
         for (size_t s = 0; s < sums.size(); ++s)
-            grid_.draw(side, sums_[s], kept_, of_.filters_, sums[s]);
+            grid_.draw(side, sums_[s], kept_, filters_, sums[s]);
     }
 }
 
 PolarSums::PolarSums(const ScalingTerms &terms, const PolarBand &band, double eps,
                      double negligible)
     : terms_(terms), band_(band), eps_(eps), negligible_(negligible),
-      filters_(band, share_of_filter * eps / safety) {}
+      single_(band, share_of_filter * eps / safety), double_(band, share_of_filter * eps / safety) {
+}
 
 int64_t PolarSums::reach(const PolarBand &band, double half) {
     const double farthest = half * std::exp(ends() / (band.along_rays * half));
-    const double beyond = PolarFilters::half_width(PolarFilters::band_of_rays) + batch + 2;
+    const double beyond = PolarGrid::longest(PolarGrid::band_of_rays) + batch + 2;
     return static_cast<int64_t>(
-               std::ceil(farthest + beyond * PolarFilters::band_of_rays / band.along_axes)) +
-           PolarFilters::half_width(band.along_axes) + 1;
+               std::ceil(farthest + beyond * PolarGrid::band_of_rays / band.along_axes)) +
+           PolarGrid::longest(band.along_axes) + 1;
 }
 
-double PolarSums::dark_from() const {
-    const auto bright = [this](double distance) {
+double PolarSums::dark_from(double most) const {
+    const auto bright = [this, most](double distance) {
         double light = 0;
         for (size_t m = 0; m < terms_.count(); ++m)
             light += terms_.largest_beyond(m, distance);
-        return light > filters_.most_light();
+        return light > most;
     };
     double distance = 0;
     while (distance < terms_.middle() && bright(distance))
@@ -284,15 +293,23 @@ double PolarSums::set(std::span<const ScaledColour> colours, double inner, doubl
     const double smallest = least.ratio, largest = most.ratio;
     if (terms_.count() > static_cast<size_t>(PolarGrid::most_terms))
         return outer;
-    const double dark = dark_from() / smallest, whole = outer * outer;
+    const double whole = outer * outer, dark = dark_from(single_.most_light()) / smallest,
+                 dim = dark_from(double_.most_light()) / smallest;
     for (double here = outer;;) {
         const double beyond = ends() / (band_.along_rays * here * largest);
-        const double next = std::max({inner, octave * here, dark * std::exp(beyond)});
+        const auto next_from = [&](double light_allows) {
+            return std::max({inner, octave * here, light_allows * std::exp(beyond)});
+        };
+        const bool is_dark = next_from(dark) <= thinnest * here;
+        const double next = next_from(is_dark ? dark : dim);
         if (next > thinnest * here)
             return here;
         const PolarGrid grid(terms_, band_, next, here, smallest, largest, beyond);
-        Ring(*this, colours, grid)
-            .set(sums, progress.between(1 - here * here / whole, 1 - next * next / whole));
+        const Progress part = progress.between(1 - here * here / whole, 1 - next * next / whole);
+        if (is_dark)
+            Ring<float>(*this, single_, colours, grid).set(sums, part);
+        else
+            Ring<double>(*this, double_, colours, grid).set(sums, part);
         here = next;
     }
 }

@@ -29,18 +29,20 @@ class PolarSums {
 
     // Sets the sums for all places that are farther than some distance from the axis along either
     // axis, but no farther than `outer`. Returns the distance: `inner`, or more where the light is
-    // too bright for single precision.
+    // too bright.
     double set(std::span<const ScaledColour> colours, double inner, double outer,
                std::span<Plane<double>> sums, const Progress &progress) const;
 
   private:
-    class Ring;
-    double dark_from() const; // samples of the terms
+    template <class T> class Ring;
+    // From how many samples of the terms on there is no more light than this.
+    double dark_from(double light) const;
 
     const ScalingTerms &terms_;
     PolarBand band_;
     double eps_, negligible_;
-    PolarFilters filters_;
+    PolarFilters<float> single_;
+    PolarFilters<double> double_;
 };
 
 } // namespace wfpsf
