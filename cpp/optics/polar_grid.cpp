@@ -72,24 +72,22 @@ WFPSF_VECTORISED void across_rays(const T *line, double first, double step, int6
     }
 }
 
-// Samples of all terms side by side: out[(i * along + j) * deep + m] is at (first_x + i,
-// first_y + j) if i counts across the x axis, else at (first_x + j, first_y + i).
+// Samples of all terms side by side: out[(i * length + j) * deep + m] is that of line i at place j
+// along it. Lines run across the axis along x, or along the one along y.
 template <class T>
 void interleave(const ScalingTerms &terms, size_t count, bool across_x, Range lines, Range along,
                 int64_t deep, T *out) {
-    const int64_t width = along.end - along.begin, height = lines.end - lines.begin;
-    for (size_t m = 0; m < count; ++m, ++out) {
-        const View<const double> term = terms[m].view();
-        if (across_x)
-            for (int64_t j = 0; j < width; ++j)
-                for (int64_t i = 0; i < height; ++i)
-                    out[(i * width + j) * deep] =
-                        static_cast<T>(term.row(along.begin + j)[lines.begin + i]);
-        else
-            for (int64_t i = 0; i < height; ++i)
-                for (int64_t j = 0; j < width; ++j)
-                    out[(i * width + j) * deep] =
-                        static_cast<T>(term.row(lines.begin + i)[along.begin + j]);
+    const int64_t length = along.end - along.begin, height = lines.end - lines.begin;
+    std::vector<const double *> rows(count);
+    const Range ys = across_x ? along : lines;
+    for (int64_t y = ys.begin; y < ys.end; ++y) {
+        for (size_t m = 0; m < count; ++m)
+            rows[m] = terms[m].view().row(y) + (across_x ? lines.begin : along.begin);
+        T *to = out + (y - ys.begin) * (across_x ? deep : length * deep);
+        const int64_t step = across_x ? length * deep : deep;
+        for (int64_t x = 0; x < (across_x ? height : length); ++x, to += step)
+            for (size_t m = 0; m < count; ++m)
+                to[m] = static_cast<T>(rows[m][x]);
     }
 }
 
@@ -118,16 +116,20 @@ template <class T> auto PolarFilters<T>::for_light(double light) const -> const 
 const int64_t PolarGrid::padding = block;
 
 PolarGrid::PolarGrid(const ScalingTerms &terms, const PolarBand &band, double inner, double outer,
-                     double smallest_ratio, double largest_ratio, double ends)
-    : terms_(terms), inner_(inner), outer_(outer), smallest_(smallest_ratio),
+                     double smallest_ratio, double largest_ratio, double ends, double best)
+    : terms_(terms), best_(best), inner_(inner), outer_(outer), smallest_(smallest_ratio),
       largest_(largest_ratio), start_(std::log(inner * smallest_) - ends),
       length_(std::log(outer * largest_) + ends - start_) {
     const double farthest = std::exp(start_ + length_);
     highest_ = band.along_rays * farthest;
     highest_needed_ = band.along_rays * outer * largest_;
-    step_ = band_of_rays / (band.along_axes * farthest);
-    middle_ray_ = static_cast<int64_t>(std::ceil(1 / step_)) + longest(band_of_rays) + 1;
-    rays_ = (2 * middle_ray_ + batch) / batch * batch;
+    // As dense as they must be, or denser so that batches of them are full.
+    const auto beyond = static_cast<double>(longest(band_of_rays));
+    const double densest = band.along_axes * farthest / band_of_rays;
+    rays_ = static_cast<int64_t>(std::ceil(2 * (densest + beyond))) + 1;
+    rays_ = (rays_ + batch - 1) / batch * batch;
+    middle_ray_ = static_cast<double>(rays_ - 1) / 2;
+    step_ = 1 / (middle_ray_ - beyond);
 }
 
 template <class T>
@@ -251,8 +253,7 @@ void PolarGrid::draw(const Side &side, const Plane<T> &on_rays, int64_t per_ray,
                 const double here = static_cast<double>(i) - middle;
                 const double per_sample = 1 / (here * step_); // rays
                 const auto ray = [&](int64_t x) {
-                    return static_cast<double>(middle_ray_) +
-                           (static_cast<double>(x) - middle) * per_sample;
+                    return middle_ray_ + (static_cast<double>(x) - middle) * per_sample;
                 };
                 const int64_t first_ray = static_cast<int64_t>(ray(x0)) - of_rays.half_width() + 1;
                 const int64_t rays =

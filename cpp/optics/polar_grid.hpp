@@ -52,9 +52,9 @@ template <class T> class PolarFilters {
 class PolarGrid {
   public:
     // The image is a sum of terms that are made smaller by factors between two ratios; what filters
-    // along rays need beyond either end is `ends` of ln distance.
+    // along rays need beyond either end is `ends` of ln distance, and the longest miss `best`.
     PolarGrid(const ScalingTerms &terms, const PolarBand &band, double inner, double outer,
-              double smallest_ratio, double largest_ratio, double ends);
+              double smallest_ratio, double largest_ratio, double ends, double best);
 
     double start() const { return start_; }     // ln distance in the terms of the first sample
     double length() const { return length_; }   // of a ray in ln distance
@@ -85,24 +85,27 @@ class PolarGrid {
     // Numbers that stand idle behind a row of rays.
     static const int64_t padding;
 
-    // Bands of what stands on rays, in cycles a sample, and the half width of the longest filter.
+    // Bands of what stands on rays, in cycles a sample.
     static constexpr double band_of_distances = 0.25, band_of_rays = 0.35;
-    static int longest(double bandwidth) {
-        return BandlimitedInterpolator(bandwidth, PolarFilters<double>::best).half_width();
-    }
 
   private:
     template <int64_t vectors, class T>
     void sample(const Side &side, Range rays, int64_t samples,
                 std::span<const FilterTable<T> *const> filters, Sampled<T> &out) const;
-    double slope(int64_t ray) const { return static_cast<double>(ray - middle_ray_) * step_; }
+    double slope(int64_t ray) const { return (static_cast<double>(ray) - middle_ray_) * step_; }
     double place(double in_image, int64_t per_ray) const; // among a ray's samples
 
+    int longest(double bandwidth) const {
+        return BandlimitedInterpolator(bandwidth, best_).half_width();
+    }
+
     const ScalingTerms &terms_;
+    double best_;
     double inner_, outer_, smallest_, largest_; // ratios
     double start_, length_, highest_, highest_needed_;
     double step_; // of rays, on a side that is one sample off the axis
-    int64_t middle_ray_, rays_;
+    int64_t rays_;
+    double middle_ray_;
 };
 
 } // namespace wfpsf

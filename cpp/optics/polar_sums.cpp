@@ -19,9 +19,9 @@ constexpr double pi = std::numbers::pi;
 using Complex = std::complex<double>;
 constexpr int64_t batch = PolarGrid::batch;
 
-// Frequencies that are of no use fade out over so large a part of the highest one, and to so
-// little; at least so many are kept.
-constexpr double fading = 0.5, faded = PolarFilters<double>::best, fewest_kept = 0.35;
+// Frequencies that are of no use fade out over so large a part of the highest one; at least so many
+// are kept.
+constexpr double fading = 0.5, fewest_kept = 0.35;
 
 // Shares of eps: what each of four filters misses of the light around them, of which any may err by
 // more at one place than by all frequencies' light; and frequencies left out. The rest are digits.
@@ -30,11 +30,24 @@ constexpr double share_of_filter = 0.125, safety = 2, share_left_out = 0.35;
 // From one ring to the next; and how thin the last one may be.
 constexpr double octave = 0.5, thinnest = 0.8;
 
-// How much farther than the image filters along rays reach, in periods of the highest frequency.
-double ends() {
-    static const double fading_out = BandlimitedInterpolator(0.25, faded).half_width() / 2.0;
-    constexpr double band = PolarGrid::band_of_distances;
-    return (fading_out + 1) / fading + PolarGrid::longest(band) * band / fewest_kept;
+// How much farther than the image filters along rays reach, in periods of the highest frequency, if
+// the longest miss `best`.
+double ends(double best) {
+    constexpr double band = PolarGrid::band_of_distances, middling = 0.25;
+    const BandlimitedInterpolator distances(band, best), fade(middling, best);
+    return (fade.half_width() * (1 - 2 * middling) + 1) / fading +
+           distances.half_width() * band / fewest_kept;
+}
+
+// How far from the axis terms must reach for rays that are drawn from up to `half` samples off it.
+int64_t reach_for(const PolarBand &band, double half, double best) {
+    const auto longest = [best](double bandwidth) {
+        return BandlimitedInterpolator(bandwidth, best).half_width();
+    };
+    const double farthest = half * std::exp(ends(best) / (band.along_rays * half));
+    const double beyond =
+        longest(PolarGrid::band_of_rays) * PolarGrid::band_of_rays / band.along_axes;
+    return static_cast<int64_t>(std::ceil(farthest + beyond)) + longest(band.along_axes) + 1;
 }
 
 // exp(2 pi i f turns) at frequencies f = 0, 1, ..., and so many times it.
@@ -177,7 +190,7 @@ PolarSums::Ring<T>::Ring(const PolarSums &of, const PolarFilters<T> &filters,
     needed_ = std::min({static_cast<int64_t>(highest * length) + 1,
                         static_cast<int64_t>((band + fade) * length) + 1, (kept_ + 1) / 2});
     const double sharpest = 2 * band + fade; // cycles, one of which is a filter's sample
-    const BandlimitedInterpolator filter(band / sharpest, faded);
+    const BandlimitedInterpolator filter(band / sharpest, PolarFilters<T>::best);
     for (const std::vector<std::vector<Complex>> &of_sum : transfers) {
         std::vector<Factors> &factors = factors_.emplace_back();
         for (int64_t f = 0; f < needed_; ++f) {
@@ -266,12 +279,12 @@ PolarSums::PolarSums(const ScalingTerms &terms, const PolarBand &band, double ep
       single_(band, share_of_filter * eps / safety), double_(band, share_of_filter * eps / safety) {
 }
 
-int64_t PolarSums::reach(const PolarBand &band, double half) {
-    const double farthest = half * std::exp(ends() / (band.along_rays * half));
-    const double beyond = PolarGrid::longest(PolarGrid::band_of_rays) + batch + 2;
-    return static_cast<int64_t>(
-               std::ceil(farthest + beyond * PolarGrid::band_of_rays / band.along_axes)) +
-           PolarGrid::longest(band.along_axes) + 1;
+// As bright as spikes are, which fall as the square of the distance.
+int64_t PolarSums::reach(const PolarBand &band, double half, double range, double eps) {
+    const double phase = pi * band.along_axes * octave * half * range;
+    const bool is_dark =
+        1 / (phase * phase) < share_of_filter * eps / (safety * PolarFilters<float>::best);
+    return reach_for(band, half, is_dark ? PolarFilters<float>::best : PolarFilters<double>::best);
 }
 
 double PolarSums::dark_from(double most) const {
@@ -296,15 +309,23 @@ double PolarSums::set(std::span<const ScaledColour> colours, double inner, doubl
     const double whole = outer * outer, dark = dark_from(single_.most_light()) / smallest,
                  dim = dark_from(double_.most_light()) / smallest;
     for (double here = outer;;) {
-        const double beyond = ends() / (band_.along_rays * here * largest);
-        const auto next_from = [&](double light_allows) {
-            return std::max({inner, octave * here, light_allows * std::exp(beyond)});
+        const auto beyond = [&](double best) {
+            return ends(best) / (band_.along_rays * here * largest);
         };
-        const bool is_dark = next_from(dark) <= thinnest * here;
-        const double next = next_from(is_dark ? dark : dim);
-        if (next > thinnest * here)
+        const auto next_from = [&](double light_allows, double best) {
+            return std::max({inner, octave * here, light_allows * std::exp(beyond(best))});
+        };
+        constexpr double best[] = {PolarFilters<float>::best, PolarFilters<double>::best};
+        double next = next_from(dark, best[0]);
+        const bool is_dark = next <= thinnest * here;
+        if (!is_dark)
+            next = next_from(dim, best[1]);
+        if (next > thinnest * here ||
+            static_cast<double>(reach_for(band_, here * largest, best[is_dark ? 0 : 1])) >
+                terms_.middle())
             return here;
-        const PolarGrid grid(terms_, band_, next, here, smallest, largest, beyond);
+        const double own = best[is_dark ? 0 : 1];
+        const PolarGrid grid(terms_, band_, next, here, smallest, largest, beyond(own), own);
         const Progress part = progress.between(1 - here * here / whole, 1 - next * next / whole);
         if (is_dark)
             Ring<float>(*this, single_, colours, grid).set(sums, part);

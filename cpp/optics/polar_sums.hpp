@@ -24,8 +24,9 @@ class PolarSums {
     // The sums may miss eps, and terms that are negligible together.
     PolarSums(const ScalingTerms &terms, const PolarBand &band, double eps, double negligible);
 
-    // How far from the axis terms must reach, in samples, for places up to `half` samples off.
-    static int64_t reach(const PolarBand &band, double half);
+    // How far from the axis terms must reach, in samples, for places up to `half` samples off; by
+    // the ratio of the bluest to the reddest wavelength, and eps in units of the peak.
+    static int64_t reach(const PolarBand &band, double half, double range, double eps);
 
     // Sets the sums for all places that are farther than some distance from the axis along either
     // axis, but no farther than `outer`. Returns the distance: `inner`, or more where the light is

@@ -98,8 +98,9 @@ Scaling::Scaling(const ImageMaker &maker, double blue, double red, double eps)
     if (rays_from_ < to_.half()) {
         const bool round = maker.optics().aperture->outline() == Outline::round;
         band_ = {bandwidth, bandwidth * (round ? std::numbers::sqrt2 : 2)};
-        polar_eps_ = (share_of_filters + share_of_digits) * eps * unit;
-        reach = std::max(reach, PolarSums::reach(band_, half));
+        const double own = (share_of_filters + share_of_digits) * eps;
+        polar_eps_ = own * unit;
+        reach = std::max(reach, PolarSums::reach(band_, half, blue / red, own));
         missed_by_filters = std::max(missed_by_filters, share_of_filters * eps);
     }
     from_ = 2 * reach + 1;
