@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -88,10 +89,12 @@ struct Images {
     }
 };
 
-// How bright images are at most from a distance on, in grid samples.
+// How bright images are at most from a distance on, in grid samples, of which one of the images'
+// own is `step`.
 class Profile {
   public:
-    Profile(std::span<const Plane<double>> images, double area) : peak_(area * area) {
+    Profile(std::span<const Plane<double>> images, double step, double area)
+        : step_(step), peak_(area * area) {
         const double half = static_cast<double>(images[0].nx() - 1) / 2;
         brightest_.resize(static_cast<size_t>(std::numbers::sqrt2 * half) + 2);
         constexpr int64_t run = 16; // samples, all counted as if at the farther end
@@ -126,27 +129,45 @@ class Profile {
 
   private:
     double beyond(double distance) const {
-        return brightest_[std::min(static_cast<size_t>(distance), brightest_.size() - 1)];
+        return brightest_[std::min(static_cast<size_t>(distance / step_), brightest_.size() - 1)];
     }
 
-    double peak_;
-    std::vector<double> brightest_; // from so many samples on
+    double step_, peak_;
+    std::vector<double> brightest_; // from so many of the images' samples on
 };
 
 // By the optical path difference there, in units of the unaberrated peak of the bluest light.
-Brightness brightness_of(const Images &images, const ImageMaker &maker, double range) {
-    return [profile = Profile(images.intensity, maker.optics().aperture->area()), &maker,
-            range](double path) { return profile.in_any_colour(maker.distance(path), range); };
+Brightness brightness_of(const Images &images, const Scaling &scaling, const ImageMaker &maker,
+                         double range) {
+    return
+        [profile = Profile(images.intensity, scaling.coarser(), maker.optics().aperture->area()),
+         &maker, range](double path) { return profile.in_any_colour(maker.distance(path), range); };
+}
+
+// All colours of several spectra.
+ColourSums sums_over(std::span<const Spectrum> spectra, double half) {
+    ColourSums sums{half, {}, {}};
+    for (const Spectrum &spectrum : spectra) {
+        for (std::vector<double> &others : sums.weights)
+            others.resize(others.size() + spectrum.size());
+        std::vector<double> &own = sums.weights.emplace_back(sums.wavelengths.size());
+        own.insert(own.end(), spectrum.weight.begin(), spectrum.weight.end());
+        sums.wavelengths.insert(sums.wavelengths.end(), spectrum.wavelength.begin(),
+                                spectrum.wavelength.end());
+    }
+    return sums;
 }
 
 // Nearer to the axis an image changes less with colour: rules for ever smaller squares about it,
 // each with no more wavelengths than the one that they are made of, which is for them all.
 struct Rules {
+    ColourSums all; // colours that the wavelengths stand for
     std::vector<ColourSums> of;
     double missed = 0; // of the one that they are made of, as in choose_wavelengths()
 
-    Rules(const ImageMaker &maker, std::span<const double> wavelengths,
-          std::span<const std::vector<double>> weights, const Brightness &brightness, double eps) {
+    Rules(const ImageMaker &maker, ColourSums of_all, std::span<const double> wavelengths,
+          std::span<const std::vector<double>> weights, const Brightness &brightness, double eps)
+        : all(std::move(of_all)) {
         std::vector<Spectrum> spectra;
         for (const std::vector<double> &own : weights)
             spectra.push_back({{wavelengths.begin(), wavelengths.end()}, own});
@@ -170,13 +191,17 @@ struct Rules {
 // The sums over the rules' wavelengths, one a row of weights.
 std::vector<Field> fields_of(const ImageMaker &maker, const Scaling &scaling, Images images,
                              const Rules &rules, const Progress &progress) {
-    std::vector<ColourSums> scaled = rules.of;
-    for (ColourSums &rule : scaled)
-        for (std::vector<double> &own : rule.weights)
+    const auto scaled = [&maker](ColourSums sums) {
+        for (std::vector<double> &own : sums.weights)
             for (size_t k = 0; k < own.size(); ++k)
-                own[k] *= maker.scale(rule.wavelengths[k]);
+                own[k] *= maker.scale(sums.wavelengths[k]);
+        return sums;
+    };
+    std::vector<ColourSums> by_rules;
+    std::ranges::transform(rules.of, std::back_inserter(by_rules), scaled);
     std::vector<Field> fields;
-    for (Plane<double> &sum : scaling.sums(std::move(images.intensity), scaled, progress)) {
+    auto all = scaling.sums(std::move(images.intensity), scaled(rules.all), by_rules, progress);
+    for (Plane<double> &sum : all) {
         Field &field = fields.emplace_back(maker.interpolator());
         field.per_pixel = maker.per_pixel();
         field.grid_size = maker.grid().size;
@@ -254,11 +279,11 @@ std::vector<Field> make_fields(const Optics &optics, std::span<const Light> ligh
         const Scaling scaling(maker, bluest, reddest, shares.of_scaling * tolerance);
         manners.require_memory(memory(maker, scaling, lights.size()), "a field of that radius");
         Images images(maker, scaling, manners.progress.between(0, 0.6));
-        const Brightness brightness = brightness_of(images, maker, bluest / reddest);
+        const Brightness brightness = brightness_of(images, scaling, maker, bluest / reddest);
         const auto [rule, weights, missed] = choose_wavelengths(
             spectra, maker.longest_path(), brightness, shares.of_rule * tolerance);
-        const Rules rules(maker, rule.wavelengths(), weights, brightness,
-                          shares.of_fewer * tolerance);
+        const Rules rules(maker, sums_over(spectra, maker.grid().half()), rule.wavelengths(),
+                          weights, brightness, shares.of_fewer * tolerance);
         std::vector<Field> fields =
             fields_of(maker, scaling, std::move(images), rules, manners.progress.between(0.6, 1));
         double error = 0;
@@ -280,9 +305,10 @@ Field make_field_like(const Field &like, const Optics &optics, const PsfSettings
                       double radius) {
     const Remaking as(like, optics, settings, radius);
     Images images(as.maker, as.scaling, {});
-    const Brightness brightness =
-        brightness_of(images, as.maker, like.shortest_wavelength / like.longest_wavelength);
-    const Rules rules(as.maker, as.wavelengths, {&as.weights, 1}, brightness,
+    const Brightness brightness = brightness_of(images, as.scaling, as.maker,
+                                                like.shortest_wavelength / like.longest_wavelength);
+    const Rules rules(as.maker, {as.maker.grid().half(), as.wavelengths, {as.weights}},
+                      as.wavelengths, {&as.weights, 1}, brightness,
                       Remaking::shares(like).of_fewer * like.tolerance);
     Field field = std::move(fields_of(as.maker, as.scaling, std::move(images), rules, {})[0]);
     field.error +=
@@ -312,7 +338,8 @@ std::vector<Field> make_field_changes(const Field &like, const Optics &optics,
     for (std::vector<Plane<double>> &images : changes) {
         Field &field = fields.emplace_back(as.maker.interpolator());
         field.per_pixel = as.maker.per_pixel();
-        field.value = as.maker.averaged(as.scaling.sums(std::exchange(images, {}), {&rule, 1})[0]);
+        field.value =
+            as.maker.averaged(as.scaling.sums(std::exchange(images, {}), rule, {&rule, 1})[0]);
     }
     return fields;
 }

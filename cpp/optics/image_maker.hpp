@@ -53,16 +53,12 @@ class ImageMaker {
     // Whole rows of an intensity averaged over the pixel and blurred, on the axes of the image.
     Plane<double> averaged(const Plane<double> &intensity) const;
 
-    // What interpolates intensities on the grid, or finer ones, to `eps` of the unaberrated peak.
-    AveragedSamples unaveraged(double eps) const {
-        return AveragedSamples(bandwidth(shortest_wavelength_), 0, optics_.aperture->outline(),
-                               eps / strength_);
+    // What interpolates intensities on any grid, on which they hold no more than `bandwidth` cycles
+    // a sample, to `eps` of the unaberrated peak.
+    AveragedSamples unaveraged(double bandwidth, double eps) const {
+        return AveragedSamples(bandwidth, 0, optics_.aperture->outline(), eps / strength_);
     }
-    // The same for any light with no frequencies above theirs, not the whole image's: to `eps` of
-    // the integral of its absolute spectrum.
-    BandlimitedInterpolator interpolator_of_any(double eps) const {
-        return BandlimitedInterpolator(bandwidth(shortest_wavelength_), eps);
-    }
+    double bandwidth() const { return bandwidth(shortest_wavelength_); } // on the grid
     double strength() const { return strength_; } // of the spectrum that bounds an image's
 
     // What the averages and the interpolation add to an image's error, in units of the unaberrated

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "optics/scaling.hpp"
 
+#include "optics/polar_sums.hpp"
 #include "optics/sum_blocks.hpp"
 
 #include <algorithm>
@@ -23,6 +24,11 @@ constexpr double share_of_terms = 0.45, share_of_filters = 0.35, share_left_out 
 // frequencies' light may err by more of the largest sample around.
 constexpr double fainter = 1.0 / 16, safety = 2;
 constexpr double single_rounding = 4e-7; // of sums in single precision, of the largest sample
+
+// Rays are worth their while from so many fringes on that the colours differ by, if the image is so
+// much larger. The images they start from are only sampled as finely as serves filters best then,
+// in cycles a sample.
+constexpr double nearest_for_rays = 13, worthwhile = 2, band_for_rays = 0.3;
 
 // Images at Chebyshev's points become the polynomial's terms.
 void expand(std::vector<Plane<double>> &images) {
@@ -68,21 +74,38 @@ Scaling::Scaling(const ImageMaker &maker, double blue, double red, double eps)
     while (missed > std::max(share_of_terms * eps, AveragedSamples::rounding));
     for (int k = 0; k < terms; ++k)
         wavelengths_.push_back(1 / (middle_ + half_ * std::cos(pi * (k + 0.5) / terms)));
-    samples_.emplace(maker.unaveraged(share_of_filters * eps));
+    const double nearest = nearest_for_rays / (maker.bandwidth() * std::log(red / blue));
+    if (to_.half() > worthwhile * nearest) {
+        coarser_ = std::max(1.0, band_for_rays / maker.bandwidth());
+        rays_from_ = nearest;
+    }
+    const double bandwidth = coarser_ * maker.bandwidth();
+    samples_.emplace(maker.unaveraged(bandwidth, share_of_filters * eps));
     const double area = maker.optics().aperture->area(), unit = area * area;
     economy_.filters.push_back({samples_->interpolator(), INFINITY});
     for (double faint = fainter; economy_.filters.back().interpolator.half_width() > 2;
          faint *= fainter) {
         const double asked = share_of_filters * eps / (safety * 2 * faint);
-        const BandlimitedInterpolator interpolator = maker.interpolator_of_any(asked);
+        const BandlimitedInterpolator interpolator(bandwidth, asked);
         if (interpolator.half_width() < economy_.filters.back().interpolator.half_width())
             economy_.filters.push_back({interpolator, faint * unit});
     }
     economy_.negligible = share_left_out * eps * unit;
     economy_.single_precision = share_of_digits * eps / single_rounding * unit;
-    from_ += 2 * samples_->interpolator().half_width();
-    error_ = missed + (share_left_out + share_of_digits) * eps +
-             maker.strength() * samples_->missed() + AveragedSamples::rounding;
+    const double half = to_.half() / coarser_;
+    int64_t reach = static_cast<int64_t>(std::ceil(half)) + samples_->interpolator().half_width();
+    double missed_by_filters = maker.strength() * samples_->missed();
+    if (rays_from_ < to_.half()) {
+        const bool round = maker.optics().aperture->outline() == Outline::round;
+        band_ = {bandwidth, bandwidth * (round ? std::numbers::sqrt2 : 2)};
+        const double own = (share_of_filters + share_of_digits) * eps;
+        polar_eps_ = own * unit;
+        reach = std::max(reach, PolarSums::reach(band_, half, blue / red, own));
+        missed_by_filters = std::max(missed_by_filters, share_of_filters * eps);
+    }
+    from_ = 2 * reach + 1;
+    error_ = missed + (share_left_out + share_of_digits) * eps + missed_by_filters +
+             AveragedSamples::rounding;
 }
 
 std::vector<double> Scaling::shares(double wavelength) const {
@@ -97,7 +120,19 @@ std::vector<double> Scaling::shares(double wavelength) const {
     return shares;
 }
 
-std::vector<Plane<double>> Scaling::sums(std::vector<Plane<double>> images,
+std::vector<ScaledColour> Scaling::scaled(const ColourSums &of, size_t begin, size_t end) const {
+    std::vector<ScaledColour> colours;
+    for (size_t k = begin; k < end; ++k) {
+        const double wavelength = of.wavelengths[k];
+        colours.push_back(
+            {(1 / wavelength - middle_) / half_, blue_ / (coarser_ * wavelength), {}});
+        for (const std::vector<double> &own : of.weights)
+            colours.back().weights.push_back(own[k]);
+    }
+    return colours;
+}
+
+std::vector<Plane<double>> Scaling::sums(std::vector<Plane<double>> images, const ColourSums &all,
                                          std::span<const ColourSums> rules,
                                          const Progress &progress) const {
     const int64_t size = to_.size;
@@ -114,25 +149,27 @@ std::vector<Plane<double>> Scaling::sums(std::vector<Plane<double>> images,
     for (size_t s = 0; s < rules[0].weights.size(); ++s)
         sums.emplace_back(size, size);
     expand(images);
-    ScaledTiles tiles(std::move(images), size, economy_);
+    const ScalingTerms terms(std::move(images));
+    double half = to_.half();
+    if (rays_from_ < half)
+        half = PolarSums(terms, band_, polar_eps_, economy_.negligible)
+                   .set(scaled(all, 0, all.wavelengths.size()), rays_from_, half, sums,
+                        progress.between(0, 0.5));
+    const Progress rest = progress.between(rays_from_ < to_.half() ? 0.5 : 0, 1);
+    ScaledTiles tiles(terms, size, half, economy_);
     for (size_t r = 0; r < rules.size(); ++r) {
         const ColourSums &rule = rules[r];
         const double beyond = r + 1 < rules.size() ? rules[r + 1].half : -1;
         // A few colours at a time: their weights stay in the cache.
         constexpr size_t together = 16;
         for (size_t begin = 0; begin < rule.wavelengths.size(); begin += together) {
-            progress.report(
+            rest.report(
                 (static_cast<double>(r) +
                  static_cast<double>(begin) / static_cast<double>(rule.wavelengths.size())) /
                 static_cast<double>(rules.size()));
-            std::vector<ScaledTiles::Colour> colours;
-            for (size_t k = begin; k < std::min(begin + together, rule.wavelengths.size()); ++k) {
-                const double wavelength = rule.wavelengths[k];
-                colours.push_back({(1 / wavelength - middle_) / half_, blue_ / wavelength, {}});
-                for (const std::vector<double> &own : rule.weights)
-                    colours.back().weights.push_back(own[k]);
-            }
-            tiles.add(colours, rule.half, beyond, sums);
+            const std::vector<ScaledColour> colours =
+                scaled(rule, begin, std::min(begin + together, rule.wavelengths.size()));
+            tiles.add(colours, std::min(rule.half, half), beyond, sums);
         }
     }
     return sums;

@@ -10,8 +10,10 @@
 #include "image/view.hpp"
 #include "optics/aperture.hpp"
 #include "optics/image_maker.hpp"
+#include "optics/polar_sums.hpp"
 #include "optics/scaling_tiles.hpp"
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <vector>
@@ -34,7 +36,12 @@ class Scaling {
 
     // What images are needed of, and the grid that each is made on.
     const std::vector<double> &wavelengths() const { return wavelengths_; }
-    FocalGrid grid(double wavelength) const { return {from_, to_.step * (wavelength / blue_)}; }
+    FocalGrid grid(double wavelength) const {
+        return {from_, coarser_ * to_.step * (wavelength / blue_)};
+    }
+
+    // Of the step of that grid to the maker's for the bluest light.
+    double coarser() const { return coarser_; }
 
     // The parts that these images have in one of another wavelength.
     std::vector<double> shares(double wavelength) const;
@@ -43,18 +50,26 @@ class Scaling {
     // nothing.
     double error() const { return error_; }
 
-    // The sums of the images, which are used up. Rules from the outermost to the innermost.
-    std::vector<Plane<double>> sums(std::vector<Plane<double>> images,
+    // The sums of the images, which are used up: far from the axis over all colours, else by rules
+    // from the outermost to the innermost.
+    std::vector<Plane<double>> sums(std::vector<Plane<double>> images, const ColourSums &all,
                                     std::span<const ColourSums> rules,
                                     const Progress &progress = {}) const;
 
   private:
+    // Colours begin..end-1 of some.
+    std::vector<ScaledColour> scaled(const ColourSums &of, size_t begin, size_t end) const;
+
     double blue_, middle_ = 0, half_ = 0; // of 1 / wavelength
     FocalGrid to_;
-    int64_t from_; // samples of the given images along an axis
+    double coarser_ = 1; // step of the given images
+    int64_t from_;       // samples of the given images along an axis
     std::vector<double> wavelengths_;
     std::optional<AveragedSamples> samples_; // unless there is one wavelength alone
     ScaledTiles::Economy economy_{};
+    double rays_from_ = INFINITY; // samples off the axis
+    PolarBand band_{};
+    double polar_eps_ = 0;
     double error_ = 0;
 };
 

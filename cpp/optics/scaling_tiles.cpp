@@ -15,7 +15,6 @@ namespace {
 
 constexpr int64_t tile = 64;     // samples along an axis
 constexpr int64_t together = 16; // rows, that fill cache lines as they become columns
-constexpr int64_t spot = 16;     // samples along an axis that count as bright as their brightest
 
 // As many numbers as most processors' vector instructions take, by name: loops over so few of them
 // the compiler would rather unroll.
@@ -112,7 +111,7 @@ template <class T> WFPSF_VECTORISED void convert(const double *from, int64_t cou
 class ScaledTiles::Sized {
   public:
     // Within `half` samples of the axis.
-    Sized(const Colour &colour, size_t terms, int64_t from, int64_t to, double half,
+    Sized(const ScaledColour &colour, size_t terms, int64_t from, int64_t to, double half,
           std::span<const Filter> filters)
         : colour_(&colour), from_(from), to_(to),
           first_(
@@ -182,7 +181,7 @@ class ScaledTiles::Sized {
         }
     }
 
-    const Colour *colour_;
+    const ScaledColour *colour_;
     int64_t from_, to_, first_;
     std::span<const Filter> filters_;
     template <class T> struct InPrecision {
@@ -192,60 +191,26 @@ class ScaledTiles::Sized {
     std::tuple<InPrecision<double>, InPrecision<float>> precisions_;
 };
 
-namespace {
-
-// The largest absolute value in and around each spot.
-Plane<double> brightest_around(const Plane<double> &term) {
-    const int64_t size = term.nx(), spots = (size + spot - 1) / spot;
-    Plane<double> most(spots, spots), around(spots, spots);
-    for (int64_t y = 0; y < size; ++y)
-        for (int64_t b = 0; b < spots; ++b) {
-            const double *const row = term.view().row(y);
-            double here = most(b, y / spot);
-            for (int64_t x = b * spot; x < std::min((b + 1) * spot, size); ++x)
-                here = std::max(here, std::abs(row[x]));
-            most(b, y / spot) = here;
-        }
-    for (int64_t y = 0; y < spots; ++y)
-        for (int64_t x = 0; x < spots; ++x)
-            for (int64_t j = std::max<int64_t>(y - 1, 0); j <= std::min(y + 1, spots - 1); ++j)
-                for (int64_t i = std::max<int64_t>(x - 1, 0); i <= std::min(x + 1, spots - 1); ++i)
-                    around(x, y) = std::max(around(x, y), most(i, j));
-    return around;
-}
-
-} // namespace
-
-ScaledTiles::ScaledTiles(std::vector<Plane<double>> terms, int64_t size, const Economy &economy)
-    : terms_(std::move(terms)), size_(size), economy_(economy) {
-    for (const Plane<double> &term : terms_)
-        brightest_.push_back(brightest_around(term));
-}
-
 ScaledTiles::Choice ScaledTiles::choose(Range x, Range y) const {
-    double light = 0, left_out = 0;
-    size_t terms = terms_.size();
-    for (size_t m = terms_.size(); m-- > 0;) {
-        double most = 0;
-        for (int64_t j = y.begin / spot; j <= (y.end - 1) / spot; ++j)
-            for (int64_t i = x.begin / spot; i <= (x.end - 1) / spot; ++i)
-                most = std::max(most, brightest_[m](i, j));
-        light += most;
-        if (m > 0 && terms == m + 1 && left_out + most <= economy_.negligible) {
-            left_out += most;
-            terms = m;
-        }
-    }
+    const auto [terms, light] = terms_.light(x, y, economy_.negligible);
     size_t filter = 0;
     while (filter + 1 < economy_.filters.size() && light <= economy_.filters[filter + 1].up_to)
         ++filter;
     return {terms, filter, light <= economy_.single_precision};
 }
 
+ScaledTiles::ScaledTiles(const ScalingTerms &terms, int64_t size, double half,
+                         const Economy &economy)
+    : terms_(terms), size_(size), economy_(economy) {
+    const auto outside =
+        static_cast<int64_t>(std::ceil(std::max(static_cast<double>(size - 1) / 2 - half, 0.0)));
+    within_ = {outside, size - outside};
+}
+
 template <class T>
 void ScaledTiles::add_tile(std::span<Sized> colours, const Tile &t, Choice choice, Work<T> &work,
                            std::span<Plane<double>> sums) const {
-    Range x{terms_[0].nx(), 0}, y = x;
+    Range x{terms_.size(), 0}, y = x;
     for (Sized &colour : colours) {
         const auto &along = colour.along<T>(choice.filter);
         x = {std::min(x.begin, along.begin(t.x0)), std::max(x.end, along.end(t.x1 - 1))};
@@ -308,11 +273,11 @@ void ScaledTiles::add_tile(std::span<Sized> colours, const Tile &t, Choice choic
     }
 }
 
-void ScaledTiles::add(std::span<const Colour> colours, double half, double beyond,
+void ScaledTiles::add(std::span<const ScaledColour> colours, double half, double beyond,
                       std::span<Plane<double>> sums) {
     std::vector<Sized> sized;
-    for (const Colour &colour : colours)
-        sized.emplace_back(colour, terms_.size(), terms_[0].nx(), size_, half, economy_.filters);
+    for (const ScaledColour &colour : colours)
+        sized.emplace_back(colour, terms_.count(), terms_.size(), size_, half, economy_.filters);
     const double middle = static_cast<double>(size_ - 1) / 2;
     const auto farthest = [middle](int64_t first, int64_t last) {
         return std::max(std::abs(static_cast<double>(first) - middle),
@@ -326,9 +291,9 @@ void ScaledTiles::add(std::span<const Colour> colours, double half, double beyon
         }
         return range;
     };
-    for (int64_t y = 0; y < size_; y += tile)
-        for (int64_t x = 0; x < size_; x += tile) {
-            const Tile t{x, std::min(x + tile, size_), y, std::min(y + tile, size_)};
+    for (int64_t y = within_.begin; y < within_.end; y += tile)
+        for (int64_t x = within_.begin; x < within_.end; x += tile) {
+            const Tile t{x, std::min(x + tile, within_.end), y, std::min(y + tile, within_.end)};
             const double off = std::max(farthest(t.x0, t.x1), farthest(t.y0, t.y1));
             if (off > half || off <= beyond)
                 continue;

@@ -5,6 +5,7 @@
 
 #include "image/view.hpp"
 #include "numerics/bandlimited.hpp"
+#include "optics/scaling_terms.hpp"
 
 #include <cstdint>
 #include <span>
@@ -12,8 +13,7 @@
 
 namespace wfpsf {
 
-// Images of all colours as a polynomial: the sum over m of T_m(x) terms[m], |x| <= 1, T_m
-// Chebyshev's, each image to be made smaller about the axis.
+// Images of all colours, each to be made smaller about the axis.
 class ScaledTiles {
   public:
     // A filter for places with no more light than `up_to`.
@@ -28,26 +28,18 @@ class ScaledTiles {
         double negligible, single_precision;
     };
 
-    // Makes images of `size` samples on either axis.
-    ScaledTiles(std::vector<Plane<double>> terms, int64_t size, const Economy &economy);
+    // Makes images of `size` samples on either axis, in the square within `half` of the axis.
+    ScaledTiles(const ScalingTerms &terms, int64_t size, double half, const Economy &economy);
 
-    struct Colour {
-        double x;
-        double ratio;                // of the step of the images made to that of the terms
-        std::vector<double> weights; // in each of the sums
-    };
     // Adds the images of some colours to the sums, in all tiles that lie within `half` samples of
     // the axis, but not within `beyond`.
-    void add(std::span<const Colour> colours, double half, double beyond,
+    void add(std::span<const ScaledColour> colours, double half, double beyond,
              std::span<Plane<double>> sums);
 
   private:
     class Sized;
     struct Tile {
         int64_t x0, x1, y0, y1;
-    };
-    struct Range {
-        int64_t begin, end;
     };
     struct Choice {
         size_t terms, filter;
@@ -66,10 +58,10 @@ class ScaledTiles {
     void add_tile(std::span<Sized> colours, const Tile &tile, Choice choice, Work<T> &work,
                   std::span<Plane<double>> sums) const;
 
-    std::vector<Plane<double>> terms_;
+    const ScalingTerms &terms_;
     int64_t size_;
+    Range within_;
     const Economy &economy_;
-    std::vector<Plane<double>> brightest_; // of each term, in blocks and around them
     Work<double> double_;
     Work<float> single_;
 };
