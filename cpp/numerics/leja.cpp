@@ -1,10 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "numerics/leja.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace wfpsf {
+
+namespace {
+
+// What (u + v)^(i + j) has of T_i(u) T_j(v): functions that vary along all slants alike need the
+// mixed ones most.
+double usual_part(int i, int j) {
+    return std::tgamma(i + j + 1) / (std::tgamma(i + 1) * std::tgamma(j + 1)) *
+           std::exp2(-std::max(i - 1, 0) - std::max(j - 1, 0));
+}
+
+} // namespace
 
 void LejaPolynomials::Polynomial::scale(double factor) {
     for (double &x : value)
@@ -30,12 +42,13 @@ void LejaPolynomials::raise() {
     std::vector<Polynomial> left;
     for (int j = 0; j <= degree_; ++j) {
         Polynomial &own = left.emplace_back();
+        const double part = usual_part(degree_ - j, j);
         for (size_t p = 0; p < across * across; ++p)
             own.value.push_back(
-                chebyshev(node(p % across), degree_)[static_cast<size_t>(degree_ - j)] *
+                part * chebyshev(node(p % across), degree_)[static_cast<size_t>(degree_ - j)] *
                 chebyshev(node(p / across), degree_)[static_cast<size_t>(j)]);
         own.coefficient.resize(count(degree_));
-        own.coefficient[count(degree_ - 1) + static_cast<size_t>(j)] = 1;
+        own.coefficient[count(degree_ - 1) + static_cast<size_t>(j)] = part;
         for (size_t k = 0; k < polynomial_.size(); ++k)
             own.subtract(own.value[place_[k]], polynomial_[k]);
     }
