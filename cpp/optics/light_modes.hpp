@@ -18,7 +18,7 @@ namespace wfpsf {
 std::vector<double> brightest_by_pixel(const Plane<double> &light, int64_t per_pixel);
 
 // A field that counts T_i(u) T_j(v) times at place (u, v): about the star, in a plane with as many
-// samples on either side of it.
+// samples on either side of it. Beyond there is none, and stamps that take any of it lie within.
 struct LightMode {
     int i, j;
     Plane<double> light;

@@ -74,19 +74,24 @@ class VaryingPsf::Terms {
         light_.push_back(std::move(exact.value));
     }
 
-    // By Chebyshev's polynomials.
+    // By Chebyshev's polynomials, each as large as the first term of its degree, and zeros around
+    // it.
     std::vector<LightMode> modes() const {
-        const int64_t size = of_.plain_.value.nx();
+        const int64_t border = 2 * of_.plain_.interpolator.half_width() + of_.plain_.per_pixel;
         std::vector<LightMode> modes;
-        for (int j = 0; j <= of_.degree_; ++j)
-            for (int i = 0; i + j <= of_.degree_; ++i) {
-                LightMode mode{i, j, Plane<double>(size, size), {}};
-                for (size_t k = 0; k < count(); ++k)
-                    if (const double part = polynomials_.coefficient(k, i, j); part != 0)
+        for (int degree = 0; degree <= of_.degree_; ++degree) {
+            const size_t first = LejaPolynomials::count(degree - 1);
+            const int64_t size = std::min(light_[first].nx() + 2 * border, of_.plain_.value.nx());
+            for (int j = 0; j <= degree; ++j) {
+                LightMode mode{degree - j, j, Plane<double>(size, size), {}};
+                for (size_t k = first; k < count(); ++k)
+                    if (const double part = polynomials_.coefficient(k, mode.i, j); part != 0)
                         add_all(part, light_[k], mode.light);
                 mode.find_brightest(of_.plain_.per_pixel);
+                mode.brightest.resize(of_.falls_.size());
                 modes.push_back(std::move(mode));
             }
+        }
         return modes;
     }
 
@@ -361,8 +366,10 @@ void VaryingPsf::add(std::span<const Star> stars, std::span<const StarDetail> de
 }
 
 int64_t VaryingPsf::memory() const {
-    return static_cast<int64_t>((mode_.size() + 1) * sizeof(double)) * plain_.value.nx() *
-           plain_.value.ny();
+    int64_t samples = plain_.value.nx() * plain_.value.ny();
+    for (const LightMode &mode : mode_)
+        samples += mode.light.nx() * mode.light.ny();
+    return samples * static_cast<int64_t>(sizeof(double));
 }
 
 template void VaryingPsf::add(std::span<const Star>, std::span<const StarDetail>, double, double,
