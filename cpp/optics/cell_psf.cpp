@@ -133,9 +133,9 @@ struct Coefficient {
 
 // Samples of a stamp that a plane tells.
 int64_t half_within(const Plane<double> &light, const Field &like, int64_t oversampling) {
-    const double samples = static_cast<double>(light.nx() / 2 - like.interpolator.half_width()) /
-                           static_cast<double>(like.per_pixel);
-    return static_cast<int64_t>(samples * static_cast<double>(oversampling) - 0.5);
+    const int64_t samples = light.nx() / 2 - like.interpolator.half_width();
+    return static_cast<int64_t>(
+        static_cast<double>(samples * oversampling) / static_cast<double>(like.per_pixel) - 0.5);
 }
 
 // What a mode is in stamps.

@@ -36,8 +36,10 @@ constexpr double share_of_all = 0.1, share_of_cells = 0.25, share_of_building = 
 // Of all work, that of the first exact field.
 constexpr double first_part = 0.1;
 
-// A degree's first places tell whether the polynomials below it will do.
+// A degree's first places tell whether the polynomials below it will do. Before all of them are
+// known, errors must be smaller by a factor for each that is not.
 constexpr size_t tests_per_degree = 3;
+constexpr double before_all = 2;
 
 PsfSettings exact_settings(PsfSettings settings, bool varies) {
     if (varies)
@@ -59,6 +61,19 @@ class VaryingPsf::Terms {
     size_t count() const { return light_.size(); }
     double error() const { return error_; } // of any exact field
 
+    // With so many more out to a radius, and the modes that they become: bytes.
+    int64_t memory(size_t more, double radius) const {
+        const auto area = [&](int64_t half) {
+            return (2 * (half + border()) + 1) * (2 * (half + border()) + 1);
+        };
+        int64_t samples =
+            static_cast<int64_t>(more) * area(samples_within(radius, of_.plain_.per_pixel,
+                                                             of_.plain_.interpolator.half_width()));
+        for (const Plane<double> &light : light_)
+            samples += area(light.nx() / 2);
+        return 2 * samples * static_cast<int64_t>(sizeof(double));
+    }
+
     // The next one, out to `radius` native pixels. Raises what is off by ring, of the brightest
     // pixel.
     void add(double radius, std::vector<double> &by_ring) {
@@ -77,11 +92,10 @@ class VaryingPsf::Terms {
     // By Chebyshev's polynomials, each as large as the first term of its degree, and zeros around
     // it.
     std::vector<LightMode> modes() const {
-        const int64_t border = 2 * of_.plain_.interpolator.half_width() + of_.plain_.per_pixel;
         std::vector<LightMode> modes;
         for (int degree = 0; degree <= of_.degree_; ++degree) {
             const size_t first = LejaPolynomials::count(degree - 1);
-            const int64_t size = std::min(light_[first].nx() + 2 * border, of_.plain_.value.nx());
+            const int64_t size = std::min(light_[first].nx() + 2 * border(), of_.plain_.value.nx());
             for (int j = 0; j <= degree; ++j) {
                 LightMode mode{degree - j, j, Plane<double>(size, size), {}};
                 for (size_t k = first; k < count(); ++k)
@@ -96,6 +110,10 @@ class VaryingPsf::Terms {
     }
 
   private:
+    // Samples: a stamp's that take any of a term lie within it.
+    int64_t border() const {
+        return 2 * of_.plain_.interpolator.half_width() + of_.plain_.per_pixel;
+    }
     static void add_all(double weight, const Plane<double> &light, Plane<double> &sum) {
         add_within(weight, light, light.nx() / 2, sum);
     }
@@ -133,17 +151,16 @@ void VaryingPsf::expand(const Manners &manners) {
         ++degree_;
         terms.raise_degree();
         const size_t first = terms.count(), all = LejaPolynomials::count(degree_);
-        manners.require_memory(2 * static_cast<int64_t>(all * sizeof(double)) * plain_.value.nx() *
-                                   plain_.value.ny(),
-                               "a PSF that varies so much");
+        const size_t tests = std::min(all, first + tests_per_degree);
+        manners.require_memory(terms.memory(all - first, radius), "a PSF that varies so much");
         const Progress progress = manners.progress.between(done, (1 + done) / 2);
         done = (1 + done) / 2;
         std::vector<double> by_ring(falls_.size());
         for (size_t k = first; k < all && radius > 0; ++k) {
             progress.report(static_cast<double>(k - first) / static_cast<double>(all - first));
             terms.add(radius, by_ring);
-            if (k + 1 == std::min(all, first + tests_per_degree))
-                radius = std::min(radius, measure(by_ring));
+            if (k < tests)
+                radius = std::min(radius, measure(by_ring, std::pow(before_all, tests - 1 - k)));
         }
     }
     exact_psfs_ = static_cast<int64_t>(terms.count());
@@ -157,13 +174,14 @@ void VaryingPsf::expand(const Manners &manners) {
     error_ = terms.error() + interpolation_error_ + share_of_stars * settings_.eps;
 }
 
-double VaryingPsf::measure(const std::vector<double> &by_ring) {
+double VaryingPsf::measure(const std::vector<double> &by_ring, double safety) {
     size_t wrong = by_ring.size(); // rings within
-    while (wrong > 0 && by_ring[wrong - 1] <= share_of_places * settings_.eps * falls_[wrong - 1])
+    while (wrong > 0 &&
+           safety * by_ring[wrong - 1] <= share_of_places * settings_.eps * falls_[wrong - 1])
         --wrong;
-    interpolation_error_ = std::max(error_beyond_, by_ring[0]);
+    interpolation_error_ = std::max(error_beyond_, safety * by_ring[0]);
     if (wrong < by_ring.size())
-        error_beyond_ = std::max(error_beyond_, by_ring[wrong]);
+        error_beyond_ = std::max(error_beyond_, safety * by_ring[wrong]);
     return static_cast<double>(wrong);
 }
 

@@ -71,9 +71,9 @@ class VaryingPsf {
     bool is_inside(double x, double y) const;
     class Terms;
     void expand(const Manners &manners);
-    // The radius within which polynomials err by too much that are so far off so many native pixels
-    // from the star, or farther.
-    double measure(const std::vector<double> &by_ring);
+    // The radius within which polynomials err by too much that are so far off, times `safety`, so
+    // many native pixels from the star or farther.
+    double measure(const std::vector<double> &by_ring, double safety);
     Place scaled(double x, double y) const; // to [-1, 1], the nearest place there
     Field sum_at(double x, double y) const;
     struct CellStars;
