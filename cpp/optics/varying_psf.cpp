@@ -81,8 +81,10 @@ class VaryingPsf::Terms {
         const auto [x, y] = of_.place(polynomials_.u(own), polynomials_.v(own));
         Field exact = make_field_like(of_.plain_, of_.optics_(x, y), of_.settings_, radius);
         error_ = std::max(error_, exact.error);
-        for (size_t k = 0; k < own; ++k)
-            add_all(-polynomials_.at_place_of(k, own), light_[k], exact.value);
+        const int64_t half = exact.value.nx() / 2;
+        for (int64_t row = -half; row <= half; ++row)
+            for (size_t k = 0; k < own; ++k)
+                add_row(-polynomials_.at_place_of(k, own), light_[k], row, exact.value);
         const std::vector<double> off = brightest_by_pixel(exact.value, exact.per_pixel);
         for (size_t r = 0; r < off.size(); ++r)
             by_ring[r] = std::max(by_ring[r], off[r] / exact.faintest_peak);
@@ -92,19 +94,27 @@ class VaryingPsf::Terms {
     // By Chebyshev's polynomials, each as large as the first term of its degree, and zeros around
     // it.
     std::vector<LightMode> modes() const {
+        const int64_t largest = of_.plain_.value.nx();
         std::vector<LightMode> modes;
         for (int degree = 0; degree <= of_.degree_; ++degree) {
-            const size_t first = LejaPolynomials::count(degree - 1);
-            const int64_t size = std::min(light_[first].nx() + 2 * border(), of_.plain_.value.nx());
-            for (int j = 0; j <= degree; ++j) {
-                LightMode mode{degree - j, j, Plane<double>(size, size), {}};
-                for (size_t k = first; k < count(); ++k)
-                    if (const double part = polynomials_.coefficient(k, mode.i, j); part != 0)
-                        add_all(part, light_[k], mode.light);
-                mode.find_brightest(of_.plain_.per_pixel);
-                mode.brightest.resize(of_.falls_.size());
-                modes.push_back(std::move(mode));
+            const Plane<double> &first = light_[LejaPolynomials::count(degree - 1)];
+            const int64_t size = std::min(first.nx() + 2 * border(), largest);
+            for (int j = 0; j <= degree; ++j)
+                modes.push_back({degree - j, j, Plane<double>::unset(size, size), {}});
+        }
+        for (int64_t y = -largest / 2; y <= largest / 2; ++y)
+            for (LightMode &mode : modes) {
+                const int64_t size = mode.light.nx();
+                if (std::abs(y) > size / 2)
+                    continue;
+                std::fill_n(mode.light.view().row(size / 2 + y), size, 0.0);
+                for (size_t k = LejaPolynomials::count(mode.i + mode.j - 1); k < count(); ++k)
+                    if (const double part = polynomials_.coefficient(k, mode.i, mode.j); part != 0)
+                        add_row(part, light_[k], y, mode.light);
             }
+        for (LightMode &mode : modes) {
+            mode.find_brightest(of_.plain_.per_pixel);
+            mode.brightest.resize(of_.falls_.size());
         }
         return modes;
     }
@@ -114,8 +124,13 @@ class VaryingPsf::Terms {
     int64_t border() const {
         return 2 * of_.plain_.interpolator.half_width() + of_.plain_.per_pixel;
     }
-    static void add_all(double weight, const Plane<double> &light, Plane<double> &sum) {
-        add_within(weight, light, light.nx() / 2, sum);
+    // So many times row y of light from the middle, if there is such a one: a row at a time all that
+    // it is added to stays in the cache.
+    static void add_row(double weight, const Plane<double> &light, int64_t y, Plane<double> &sum) {
+        const int64_t from = light.nx() / 2, to = sum.nx() / 2, half = std::min(from, to);
+        if (std::abs(y) <= from)
+            add_scaled(weight, light.view().row(from + y) + from - half, 2 * half + 1,
+                       sum.view().row(to + y) + to - half);
     }
 
     const VaryingPsf &of_;
