@@ -30,11 +30,10 @@ class LejaPolynomials {
     double v(size_t k) const { return node(place_[k] / across); }
     // Polynomial k at the place of another one.
     double at_place_of(size_t k, size_t other) const { return polynomial_[k].value[place_[other]]; }
-    // What polynomial k has of T_i(u) T_j(v).
-    double coefficient(size_t k, int i, int j) const {
-        const size_t at = count(i + j - 1) + static_cast<size_t>(j);
+    // What polynomial k has of T_i(u) T_j(v): by i + j, and then by j.
+    double coefficient(size_t k, size_t ij) const {
         const std::vector<double> &own = polynomial_[k].coefficient;
-        return at < own.size() ? own[at] : 0;
+        return ij < own.size() ? own[ij] : 0;
     }
 
   private:
@@ -45,7 +44,7 @@ class LejaPolynomials {
 
     struct Polynomial {
         std::vector<double> value;       // by candidate
-        std::vector<double> coefficient; // by degree, and then by j
+        std::vector<double> coefficient; // by i + j, and then by j
         void scale(double factor);
         void subtract(double times, const Polynomial &other);
     };

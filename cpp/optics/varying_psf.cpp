@@ -61,7 +61,7 @@ class VaryingPsf::Terms {
     size_t count() const { return light_.size(); }
     double error() const { return error_; } // of any exact field
 
-    // With so many more out to a radius, and the modes that they become: bytes.
+    // With so many more out to a radius, and the modes that they become, at most: bytes.
     int64_t memory(size_t more, double radius) const {
         const auto area = [&](int64_t half) {
             return (2 * (half + border()) + 1) * (2 * (half + border()) + 1);
@@ -92,29 +92,49 @@ class VaryingPsf::Terms {
     }
 
     // By Chebyshev's polynomials, each as large as the first term of its degree, and zeros around
-    // it.
-    std::vector<LightMode> modes() const {
+    // it. Those take the planes of terms that are as large: fresh memory costs more than the sums.
+    std::vector<LightMode> take_modes() {
         const int64_t largest = of_.plain_.value.nx();
         std::vector<LightMode> modes;
         for (int degree = 0; degree <= of_.degree_; ++degree) {
-            const Plane<double> &first = light_[LejaPolynomials::count(degree - 1)];
-            const int64_t size = std::min(first.nx() + 2 * border(), largest);
-            for (int j = 0; j <= degree; ++j)
-                modes.push_back({degree - j, j, Plane<double>::unset(size, size), {}});
-        }
-        for (int64_t y = -largest / 2; y <= largest / 2; ++y)
-            for (LightMode &mode : modes) {
-                const int64_t size = mode.light.nx();
-                if (std::abs(y) > size / 2)
-                    continue;
-                std::fill_n(mode.light.view().row(size / 2 + y), size, 0.0);
-                for (size_t k = LejaPolynomials::count(mode.i + mode.j - 1); k < count(); ++k)
-                    if (const double part = polynomials_.coefficient(k, mode.i, mode.j); part != 0)
-                        add_row(part, light_[k], y, mode.light);
+            const int64_t reach = light_[LejaPolynomials::count(degree - 1)].nx();
+            const int64_t size = std::min(reach + 2 * border(), largest);
+            for (int j = 0; j <= degree; ++j) {
+                const bool taken = modes.size() < count() && light_[modes.size()].nx() == size;
+                modes.push_back({degree - j,
+                                 j,
+                                 taken ? Plane<double>() : Plane<double>::unset(size, size),
+                                 {}});
             }
-        for (LightMode &mode : modes) {
-            mode.find_brightest(of_.plain_.per_pixel);
-            mode.brightest.resize(of_.falls_.size());
+        }
+        Plane<double> rows(largest, static_cast<int64_t>(count())); // of all terms
+        for (int64_t y = -largest / 2; y <= largest / 2; ++y) {
+            for (size_t k = 0; k < count(); ++k)
+                if (const int64_t half = light_[k].nx() / 2; std::abs(y) <= half)
+                    std::copy_n(light_[k].view().row(half + y), 2 * half + 1,
+                                rows.view().row(static_cast<int64_t>(k)) + largest / 2 - half);
+            for (size_t m = 0; m < modes.size(); ++m) {
+                Plane<double> &light = modes[m].light.nx() > 0 ? modes[m].light : light_[m];
+                const int64_t half = light.nx() / 2;
+                if (std::abs(y) > half)
+                    continue;
+                double *const row = light.view().row(half + y);
+                std::fill_n(row, light.nx(), 0.0);
+                for (size_t k = 0; k < count(); ++k) {
+                    const double part = polynomials_.coefficient(k, m);
+                    const int64_t reach = std::min(light_[k].nx() / 2, half);
+                    if (part != 0 && std::abs(y) <= light_[k].nx() / 2)
+                        add_scaled(part,
+                                   rows.view().row(static_cast<int64_t>(k)) + largest / 2 - reach,
+                                   2 * reach + 1, row + half - reach);
+                }
+            }
+        }
+        for (size_t m = 0; m < modes.size(); ++m) {
+            if (modes[m].light.nx() == 0)
+                modes[m].light = std::move(light_[m]);
+            modes[m].find_brightest(of_.plain_.per_pixel);
+            modes[m].brightest.resize(of_.falls_.size());
         }
         return modes;
     }
@@ -179,7 +199,7 @@ void VaryingPsf::expand(const Manners &manners) {
         }
     }
     exact_psfs_ = static_cast<int64_t>(terms.count());
-    mode_ = terms.modes();
+    mode_ = terms.take_modes();
     std::ranges::stable_sort(mode_, std::ranges::greater(), &LightMode::largest);
     const LeftOut left_out(mode_, std::vector<double>(mode_.size(), 1));
     const double little = share_of_modes * settings_.eps * plain_.faintest_peak;

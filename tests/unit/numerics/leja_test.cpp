@@ -13,9 +13,10 @@ double value(const LejaPolynomials &polynomials, size_t k, double u, double v) {
     const auto along_u = chebyshev(u, polynomials.degree());
     const auto along_v = chebyshev(v, polynomials.degree());
     double sum = 0;
-    for (int j = 0; j <= polynomials.degree(); ++j)
-        for (int i = 0; i + j <= polynomials.degree(); ++i)
-            sum += polynomials.coefficient(k, i, j) * along_u[static_cast<size_t>(i)] *
+    size_t ij = 0;
+    for (int degree = 0; degree <= polynomials.degree(); ++degree)
+        for (int j = 0; j <= degree; ++j)
+            sum += polynomials.coefficient(k, ij++) * along_u[static_cast<size_t>(degree - j)] *
                    along_v[static_cast<size_t>(j)];
     return sum;
 }
