@@ -45,12 +45,15 @@ void release(Header *block) {
 struct Kept {
     std::vector<Header *> blocks;
     int holders = 0;
+    size_t owed = 0; // bytes that were asked for and are not made way for yet
 
     void clear() {
         std::ranges::for_each(blocks, release);
         blocks.clear();
+        owed = 0;
     }
-    // The smallest block that will do; nullptr if none will, and then as many of them make way.
+    // The smallest block that will do; nullptr if none will, and then others make way, none before
+    // requests add up to its size.
     Header *take(size_t bytes) {
         auto best = blocks.end();
         for (auto block = blocks.begin(); block != blocks.end(); ++block)
@@ -58,13 +61,15 @@ struct Kept {
                 (best == blocks.end() || (*block)->capacity < (*best)->capacity))
                 best = block;
         if (best == blocks.end()) {
-            size_t freed = 0;
+            owed += bytes;
             auto oldest = blocks.begin();
-            for (; oldest != blocks.end() && freed < bytes; ++oldest) {
-                freed += (*oldest)->capacity;
+            for (; oldest != blocks.end() && owed >= (*oldest)->capacity; ++oldest) {
+                owed -= (*oldest)->capacity;
                 release(*oldest);
             }
             blocks.erase(blocks.begin(), oldest);
+            if (blocks.empty())
+                owed = 0;
             return nullptr;
         }
         Header *const found = *best;

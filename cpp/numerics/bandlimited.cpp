@@ -2,6 +2,8 @@
 #include "numerics/bandlimited.hpp"
 
 #include "error/error.hpp"
+#include "numerics/dispatch.hpp"
+#include "numerics/elementary.hpp"
 #include "numerics/quadrature.hpp"
 #include "numerics/sinc.hpp"
 
@@ -26,6 +28,19 @@ constexpr double rounding = AveragedSamples::rounding;
 double window(double beta, double u) {
     const double squared = std::min(1.0, u * u);
     return std::exp(-beta * squared / (1 + std::sqrt(1 - squared)));
+}
+
+// The kernel `half_width` samples before a place and as many behind it: numerator is sin(pi t) / pi
+// of the first sample's distance, and has the other sign at the next.
+WFPSF_VECTORISED void windowed_sinc(double beta, int half_width, double offset, double numerator,
+                                    double *w) {
+    const double scale = 1.0 / half_width;
+    for (int k = 0; k < 2 * half_width; ++k) {
+        const double t = offset + (half_width - 1 - k);
+        const double u = t * scale, squared = std::min(1.0, u * u);
+        const double below = branchless_exp(-beta * squared / (1 + std::sqrt(1 - squared)));
+        w[k] = below * (numerator - 2 * (k % 2) * numerator) / t;
+    }
 }
 
 } // namespace
@@ -62,11 +77,7 @@ int64_t BandlimitedInterpolator::weights(double x, double *w) const {
     double numerator = std::sin(pi * std::min(offset, 1 - offset)) / pi;
     if (half_width_ % 2 == 0)
         numerator = -numerator;
-    for (int k = 0; k < taps(); ++k) {
-        const double t = offset + (half_width_ - 1 - k);
-        w[k] = window(beta_, t / half_width_) * numerator / t;
-        numerator = -numerator;
-    }
+    windowed_sinc(beta_, half_width_, offset, numerator, w);
     return first;
 }
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Chebyshev's polynomials, and polynomials through values at Chebyshev's points.
+// Chebyshev's polynomials and their extreme points.
 #pragma once
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <vector>
 
 namespace wfpsf {
 
@@ -25,22 +24,6 @@ inline std::array<double, largest_chebyshev_degree + 1> chebyshev(double u, int 
 // Chebyshev's extreme points: those of twice the degree hold those of the degree.
 inline double chebyshev_node(int k, int degree) {
     return std::cos(std::numbers::pi * k / degree);
-}
-
-// From values at the extreme points (of degree 0: at 0) to the coefficients of the polynomials:
-// [coefficient][node].
-inline std::vector<std::vector<double>> chebyshev_coefficients(int degree) {
-    if (degree == 0)
-        return {{1.0}};
-    const auto ends = [degree](int k) { return k == 0 || k == degree ? 0.5 : 1.0; };
-    std::vector<std::vector<double>> matrix;
-    for (int k = 0; k <= degree; ++k) {
-        std::vector<double> &row = matrix.emplace_back();
-        for (int j = 0; j <= degree; ++j)
-            row.push_back(2.0 / degree * ends(k) * ends(j) *
-                          std::cos(std::numbers::pi * j * k / degree));
-    }
-    return matrix;
 }
 
 } // namespace wfpsf

@@ -10,11 +10,14 @@
 namespace wfpsf {
 
 int64_t good_fft_length(int64_t n) {
-    for (;; ++n) {
+    constexpr int64_t small = 16;
+    if (n > small)
+        n = (n + 3) / 4 * 4;
+    for (;; n += n < small ? 1 : 4) {
         int64_t rest = n;
         while (rest % 2 == 0)
             rest /= 2;
-        if (rest == 1 && n > 16)
+        if (rest == 1 && n > small)
             continue;
         for (const int64_t factor : {3, 5, 7})
             while (rest % factor == 0)
@@ -38,7 +41,7 @@ namespace {
 // Unaligned, so that any buffer will do; an estimate does not touch the data.
 constexpr unsigned flags = FFTW_ESTIMATE | FFTW_UNALIGNED;
 
-using Shape = std::array<int64_t, 3>; // kind; n and batch, or nx and ny
+using Shape = std::array<int64_t, 3>; // kind; n and how many, or nx and ny
 
 template <class Make> fftw_plan plan_of(const Shape &shape, Make make) {
     // For the life of the process: never destroyed, so that threads may outlive main().
@@ -59,6 +62,13 @@ BackwardFft::BackwardFft(int64_t n, int64_t batch)
           const int length = static_cast<int>(n), side_by_side = static_cast<int>(batch);
           return fftw_plan_many_dft(1, &length, side_by_side, nullptr, nullptr, side_by_side, 1,
                                     nullptr, nullptr, side_by_side, 1, FFTW_BACKWARD, flags);
+      })) {}
+
+BackwardRowFfts::BackwardRowFfts(int64_t n, int64_t count)
+    : PlannedFft(plan_of({4, n, count}, [&] {
+          const int length = static_cast<int>(n);
+          return fftw_plan_many_dft(1, &length, static_cast<int>(count), nullptr, nullptr, 1,
+                                    length, nullptr, nullptr, 1, length, FFTW_BACKWARD, flags);
       })) {}
 
 BackwardFft2d::BackwardFft2d(int64_t nx, int64_t ny)

@@ -8,8 +8,8 @@
 
 namespace wfpsf {
 
-// The smallest length >= n that FFTW transforms fast: 2^a 3^b 5^c 7^d with at least one factor that
-// is not 2, because long powers of two collide in the cache.
+// The smallest length >= n that FFTW transforms fast: 2^a 3^b 5^c 7^d, beyond 16 a multiple of four,
+// with at least one factor that is not 2, because long powers of two collide in the cache.
 int64_t good_fft_length(int64_t n);
 
 // FFTW's planner is not safe for threads: plans are made and destroyed under this lock.
@@ -34,6 +34,12 @@ class PlannedFft {
 class BackwardFft : public PlannedFft {
   public:
     explicit BackwardFft(int64_t n, int64_t batch = 1);
+};
+
+// The same for sequences one after another.
+class BackwardRowFfts : public PlannedFft {
+  public:
+    BackwardRowFfts(int64_t n, int64_t count);
 };
 
 // The same in two dimensions, over nx by ny numbers, x fastest.

@@ -64,7 +64,7 @@ WFPSF_VECTORISED void add_wave(double weight, double turns, std::vector<double> 
     }
 }
 
-// One over the transform of the kernel at modes 0..K of a fine grid of n cells.
+// One over the transform of the kernel at modes -K..K of a fine grid of n cells.
 std::vector<double> kernel_correction(int width, double beta, int64_t K, int64_t n) {
     const GaussLegendre rule(2 * width + 12);
     const double half = width / 2.0;
@@ -72,9 +72,10 @@ std::vector<double> kernel_correction(int width, double beta, int64_t K, int64_t
     for (size_t i = 0; i < rule.x.size(); ++i)
         add_wave(rule.w[i] * half * kernel(beta, rule.x[i]),
                  half * rule.x[i] / static_cast<double>(n), modes);
-    for (double &mode : modes)
-        mode = 1 / mode;
-    return modes;
+    std::vector<double> correction(static_cast<size_t>(2 * K + 1));
+    for (size_t k = 0; k < modes.size(); ++k)
+        correction[modes.size() - 1 - k] = correction[modes.size() - 1 + k] = 1 / modes[k];
+    return correction;
 }
 
 // The kernel at all W cells around a source, as one polynomial a cell in the source's offset
@@ -316,7 +317,7 @@ Type1Transform::Cells Type1Transform::transform_columns(const Cells &cells, int6
         fft.run(period.data());
         in_period(first, last - first + 1, n, [&](int64_t row, int64_t at, int64_t length) {
             for (int64_t k = row; k < row + length; ++k) {
-                const double factor = correction_[static_cast<size_t>(std::abs(first + k))];
+                const double factor = correction_[static_cast<size_t>(K_ + first + k)];
                 const Complex *from = &period[static_cast<size_t>((at + k - row) * batch)];
                 Complex *to = &half[static_cast<size_t>(k * stride_ + x)];
                 for (int64_t i = 0; i < batch; ++i)
@@ -330,30 +331,27 @@ Type1Transform::Cells Type1Transform::transform_columns(const Cells &cells, int6
 void Type1Transform::rows(int64_t first, int64_t last, const RowSink &row, size_t which) const {
     const Cells half = transform_columns(cells_[which], first, last);
     const int64_t n = x_.n, length = 2 * K_ + 1;
-    const BackwardFft fft(n, batch);
-    Cells period(static_cast<size_t>(n * batch)), modes(static_cast<size_t>(length * batch));
+    const BackwardRowFfts ffts(n, batch);
+    Cells periods(static_cast<size_t>(n * batch)), modes(static_cast<size_t>(length));
     for (int64_t begin = first; begin <= last; begin += batch) {
         const int64_t count = std::min(batch, last + 1 - begin);
-        std::fill(period.begin(), period.end(), Complex(0));
+        std::fill(periods.begin(), periods.end(), Complex(0));
         for (int64_t j = 0; j < count; ++j) {
             const Complex *cells = &half[static_cast<size_t>((begin + j - first) * stride_)];
             in_period(x_.first, x_.used, n, [&](int64_t cell, int64_t at, int64_t run) {
-                for (int64_t i = 0; i < run; ++i)
-                    period[static_cast<size_t>((at + i) * batch + j)] += cells[cell + i];
+                add_cells(cells + cell, run, &periods[static_cast<size_t>(j * n + at)]);
             });
         }
-        fft.run(period.data());
-        in_period(-K_, length, n, [&](int64_t mode, int64_t at, int64_t run) {
-            for (int64_t i = 0; i < run; ++i) {
-                const double factor = correction_[static_cast<size_t>(std::abs(mode + i - K_))];
-                const Complex *from = &period[static_cast<size_t>((at + i) * batch)];
-                for (int64_t j = 0; j < count; ++j)
-                    modes[static_cast<size_t>(j * length + mode + i)] = factor * from[j];
-            }
-        });
-        for (int64_t j = 0; j < count; ++j)
-            row(begin + j, std::span(modes).subspan(static_cast<size_t>(j * length),
-                                                    static_cast<size_t>(length)));
+        ffts.run(periods.data());
+        for (int64_t j = 0; j < count; ++j) {
+            in_period(-K_, length, n, [&](int64_t mode, int64_t at, int64_t run) {
+                const Complex *from = &periods[static_cast<size_t>(j * n + at)];
+                for (int64_t i = 0; i < run; ++i)
+                    modes[static_cast<size_t>(mode + i)] =
+                        correction_[static_cast<size_t>(mode + i)] * from[i];
+            });
+            row(begin + j, modes);
+        }
     }
 }
 

@@ -62,7 +62,7 @@ class Type1Transform {
     double oversampling_; // cells of the fine grid to a mode
     int width_;           // of the spreading kernel, fine grid cells
     Axis x_, y_;
-    std::vector<double> correction_; // one over the kernel's transform at modes 0..K
+    std::vector<double> correction_; // one over the kernel's transform at modes -K..K
     int64_t stride_;                 // of a row of cells
     std::vector<Cells> cells_;       // of each transform
 };

@@ -131,6 +131,13 @@ struct Coefficient {
     std::vector<double> brightest;
 };
 
+// Samples of a stamp that a plane tells.
+int64_t half_within(const Plane<double> &light, const Field &like, int64_t oversampling) {
+    const int64_t samples = light.nx() / 2 - like.interpolator.half_width();
+    return static_cast<int64_t>(
+        static_cast<double>(samples * oversampling) / static_cast<double>(like.per_pixel) - 0.5);
+}
+
 // What a mode is in stamps.
 struct Expansion {
     std::vector<Coefficient> coefficients;
@@ -141,6 +148,7 @@ struct Expansion {
     Expansion(const LightMode &mode, const Field &like, int64_t oversampling, int64_t half,
               double little) {
         constexpr int highest = ShiftedImage::largest_degree;
+        half = std::min(half, half_within(mode.light, like, oversampling));
         ShiftedImage image(mode.light.view(), like.interpolator, like.per_pixel, oversampling,
                            half);
         int64_t before_b = half, reach_b = half;

@@ -7,13 +7,14 @@
 
 namespace wfpsf {
 
-void LightMode::find_brightest(int64_t per_pixel) {
+std::vector<double> brightest_by_pixel(const Plane<double> &light, int64_t per_pixel) {
     const int64_t middle = light.nx() / 2;
-    const std::vector<double> by_sample = brightest_beyond<double>(
-        middle, [&](int64_t y) { return std::as_const(light).view().row(middle + y); });
-    brightest.clear();
+    const std::vector<double> by_sample =
+        brightest_beyond<double>(middle, [&](int64_t y) { return light.view().row(middle + y); });
+    std::vector<double> brightest;
     for (size_t r = 0; r < by_sample.size(); r += static_cast<size_t>(per_pixel))
         brightest.push_back(by_sample[r]);
+    return brightest;
 }
 
 LeftOut::LeftOut(std::span<const LightMode> modes, std::span<const double> weights)

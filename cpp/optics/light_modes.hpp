@@ -13,15 +13,18 @@
 
 namespace wfpsf {
 
+// The largest absolute value 0, 1, 2, ... native pixels from the middle of a field, along an axis, or
+// farther.
+std::vector<double> brightest_by_pixel(const Plane<double> &light, int64_t per_pixel);
+
 // A field that counts T_i(u) T_j(v) times at place (u, v): about the star, in a plane with as many
-// samples on either side of it.
+// samples on either side of it. Beyond there is none, and stamps that take any of it lie within.
 struct LightMode {
     int i, j;
     Plane<double> light;
-    // The largest absolute value 0, 1, 2, ... native pixels from the star along an axis, or farther.
-    std::vector<double> brightest;
+    std::vector<double> brightest; // by pixel
 
-    void find_brightest(int64_t per_pixel);
+    void find_brightest(int64_t per_pixel) { brightest = brightest_by_pixel(light, per_pixel); }
     double largest() const { return brightest[0]; }
 };
 

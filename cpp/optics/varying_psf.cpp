@@ -4,13 +4,13 @@
 #include "error/error.hpp"
 #include "image/sampling.hpp"
 #include "numerics/chebyshev.hpp"
+#include "numerics/leja.hpp"
 #include "optics/add_stars.hpp"
 #include "optics/cell_psf.hpp"
 #include "optics/sum_blocks.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <compare>
 #include <iterator>
 #include <map>
 #include <optional>
@@ -19,8 +19,6 @@
 namespace wfpsf {
 
 namespace {
-
-constexpr int largest_degree = largest_chebyshev_degree;
 
 // Native pixels beyond the radius that fields reach: a stamp's pixels are polynomials of the star's
 // place all over the pixel that holds it.
@@ -35,15 +33,13 @@ constexpr double share_of_exact = 0.4, share_of_modes = 0.05, share_of_places = 
 constexpr double share_of_all = 0.1, share_of_cells = 0.25, share_of_building = 0.25,
                  share_of_drawing = 0.4;
 
-// Rows and columns begin <= i < end of a field that stamps of that radius are drawn from.
-struct Window {
-    int64_t begin, end;
-};
-Window reach_of(const Field &field, double radius) {
-    const auto half = samples_within(radius, field.per_pixel, field.interpolator.half_width());
-    const int64_t size = field.value.nx();
-    return {std::max<int64_t>(size / 2 - half, 0), std::min(size / 2 + half + 1, size)};
-}
+// Of all work, that of the first exact field.
+constexpr double first_part = 0.1;
+
+// A degree's first places tell whether the polynomials below it will do. Before all of them are
+// known, errors must be smaller by a factor for each that is not.
+constexpr size_t tests_per_degree = 3;
+constexpr double before_all = 2;
 
 PsfSettings exact_settings(PsfSettings settings, bool varies) {
     if (varies)
@@ -51,193 +47,182 @@ PsfSettings exact_settings(PsfSettings settings, bool varies) {
     return settings;
 }
 
-// Chebyshev's extreme points of all degrees, and those half way between, are among those of twice
-// the largest one: at the cosines of multiples of pi / finest.
-constexpr int finest = 2 * largest_degree;
-struct Node {
-    int a, b;
-    double u() const { return chebyshev_node(a, finest); }
-    double v() const { return chebyshev_node(b, finest); }
-    auto operator<=>(const Node &) const = default;
-};
-
-Node node_of(int i, int j, int degree) {
-    if (degree == 0)
-        return {finest / 2, finest / 2};
-    return {finest / degree * i, finest / degree * j};
-}
-
-// Where polynomials through the nodes err most: half way between them near the corners and the
-// edges, and inside. Many are nodes of the next degree.
-std::vector<Node> tests_of(int degree) {
-    constexpr int middle = finest / 2, last = finest;
-    if (degree == 0)
-        return {{0, 0}, {last, last}};
-    if (degree == 1) // which lacks T_1(x) T_1(y): the nodes too
-        return {{middle, middle}, {0, middle}, {middle, 0}, {0, 0}, {last, 0}, {0, last}};
-    const int outer = finest / (2 * degree), inner = middle - outer;
-    return {{outer, outer},        {last - outer, outer},
-            {outer, last - outer}, {last - outer, last - inner},
-            {inner, outer},        {inner, last - inner}};
-}
-
 } // namespace
 
-// Exact fields, each made once.
-class VaryingPsf::ExactFields {
+// What exact fields at ever more places have that those before do not tell: the coefficients of
+// polynomials in Newton's form.
+class VaryingPsf::Terms {
   public:
-    explicit ExactFields(const VaryingPsf &of) : of_(of), error_(of.plain_.error) {
-        fields_.emplace(node_of(0, 0, 0), of.plain_);
+    explicit Terms(const VaryingPsf &of) : of_(of), error_(of.plain_.error) {
+        light_.push_back(of.plain_.value);
     }
 
-    // Made to reach `radius` native pixels, where it was not made before.
-    const Field &at(const Node &node, double radius) {
-        const auto found = fields_.find(node);
-        if (found != fields_.end())
-            return found->second;
-        const auto [x, y] = of_.place(node.u(), node.v());
-        const Field &field = fields_
-                                 .emplace(node, make_field_like(of_.plain_, of_.optics_(x, y),
-                                                                of_.settings_, radius))
-                                 .first->second;
-        error_ = std::max(error_, field.error);
-        return field;
+    void raise_degree() { polynomials_.raise(); }
+    size_t count() const { return light_.size(); }
+    double error() const { return error_; } // of any exact field
+
+    // With so many more out to a radius, and the modes that they become, at most: bytes.
+    int64_t memory(size_t more, double radius) const {
+        const auto area = [&](int64_t half) {
+            return (2 * (half + border()) + 1) * (2 * (half + border()) + 1);
+        };
+        int64_t samples =
+            static_cast<int64_t>(more) * area(samples_within(radius, of_.plain_.per_pixel,
+                                                             of_.plain_.interpolator.half_width()));
+        for (const Plane<double> &light : light_)
+            samples += area(light.nx() / 2);
+        return 2 * samples * static_cast<int64_t>(sizeof(double));
     }
-    int64_t count() const { return static_cast<int64_t>(fields_.size()); }
-    double error() const { return error_; } // of any
+
+    // The next one, out to `radius` native pixels. Raises what is off by ring, of the brightest
+    // pixel.
+    void add(double radius, std::vector<double> &by_ring) {
+        const size_t own = count();
+        const auto [x, y] = of_.place(polynomials_.u(own), polynomials_.v(own));
+        Field exact = make_field_like(of_.plain_, of_.optics_(x, y), of_.settings_, radius);
+        error_ = std::max(error_, exact.error);
+        const int64_t half = exact.value.nx() / 2;
+        for (int64_t row = -half; row <= half; ++row)
+            for (size_t k = 0; k < own; ++k)
+                add_row(-polynomials_.at_place_of(k, own), light_[k], row, exact.value);
+        const std::vector<double> off = brightest_by_pixel(exact.value, exact.per_pixel);
+        for (size_t r = 0; r < off.size(); ++r)
+            by_ring[r] = std::max(by_ring[r], off[r] / exact.faintest_peak);
+        light_.push_back(std::move(exact.value));
+    }
+
+    // By Chebyshev's polynomials, each as large as the first term of its degree, and zeros around
+    // it. Those take the planes of terms that are as large: fresh memory costs more than the sums.
+    std::vector<LightMode> take_modes() {
+        const int64_t largest = of_.plain_.value.nx();
+        std::vector<LightMode> modes;
+        for (int degree = 0; degree <= of_.degree_; ++degree) {
+            const int64_t reach = light_[LejaPolynomials::count(degree - 1)].nx();
+            const int64_t size = std::min(reach + 2 * border(), largest);
+            for (int j = 0; j <= degree; ++j) {
+                const bool taken = modes.size() < count() && light_[modes.size()].nx() == size;
+                modes.push_back({degree - j,
+                                 j,
+                                 taken ? Plane<double>() : Plane<double>::unset(size, size),
+                                 {}});
+            }
+        }
+        Plane<double> rows(largest, static_cast<int64_t>(count())); // of all terms
+        for (int64_t y = -largest / 2; y <= largest / 2; ++y) {
+            for (size_t k = 0; k < count(); ++k)
+                if (const int64_t half = light_[k].nx() / 2; std::abs(y) <= half)
+                    std::copy_n(light_[k].view().row(half + y), 2 * half + 1,
+                                rows.view().row(static_cast<int64_t>(k)) + largest / 2 - half);
+            for (size_t m = 0; m < modes.size(); ++m) {
+                Plane<double> &light = modes[m].light.nx() > 0 ? modes[m].light : light_[m];
+                const int64_t half = light.nx() / 2;
+                if (std::abs(y) > half)
+                    continue;
+                double *const row = light.view().row(half + y);
+                std::fill_n(row, light.nx(), 0.0);
+                for (size_t k = 0; k < count(); ++k) {
+                    const double part = polynomials_.coefficient(k, m);
+                    const int64_t reach = std::min(light_[k].nx() / 2, half);
+                    if (part != 0 && std::abs(y) <= light_[k].nx() / 2)
+                        add_scaled(part,
+                                   rows.view().row(static_cast<int64_t>(k)) + largest / 2 - reach,
+                                   2 * reach + 1, row + half - reach);
+                }
+            }
+        }
+        for (size_t m = 0; m < modes.size(); ++m) {
+            if (modes[m].light.nx() == 0)
+                modes[m].light = std::move(light_[m]);
+            modes[m].find_brightest(of_.plain_.per_pixel);
+            modes[m].brightest.resize(of_.falls_.size());
+        }
+        return modes;
+    }
 
   private:
+    // Samples: a stamp's that take any of a term lie within it.
+    int64_t border() const {
+        return 2 * of_.plain_.interpolator.half_width() + of_.plain_.per_pixel;
+    }
+    // So many times row y of light from the middle, if there is such a one: a row at a time all that
+    // it is added to stays in the cache.
+    static void add_row(double weight, const Plane<double> &light, int64_t y, Plane<double> &sum) {
+        const int64_t from = light.nx() / 2, to = sum.nx() / 2, half = std::min(from, to);
+        if (std::abs(y) <= from)
+            add_scaled(weight, light.view().row(from + y) + from - half, 2 * half + 1,
+                       sum.view().row(to + y) + to - half);
+    }
+
     const VaryingPsf &of_;
-    std::map<Node, Field> fields_;
+    LejaPolynomials polynomials_;
+    std::vector<Plane<double>> light_; // as far as each matters
     double error_;
 };
 
 VaryingPsf::VaryingPsf(OpticsAt optics, bool varies, Light light, const PsfSettings &settings,
                        const Region &region, const Manners &manners)
     : optics_(std::move(optics)), light_(std::move(light)), settings_(settings), region_(region),
-      plain_(std::move(make_fields(
-          optics_((region.x0 + region.x1) / 2, (region.y0 + region.y1) / 2), {&light_, 1},
-          exact_settings(settings, varies), settings.radius + margin, manners)[0])) {
+      plain_(std::move(
+          make_fields(optics_((region.x0 + region.x1) / 2, (region.y0 + region.y1) / 2),
+                      {&light_, 1}, exact_settings(settings, varies), settings.radius + margin,
+                      {manners.progress.between(0, first_part), manners.memory_limit})[0])) {
     const KeptMemory kept;
     exact_psfs_ = 1;
     error_ = plain_.error;
     mode_.push_back({0, 0, plain_.value, {}});
     mode_[0].find_brightest(plain_.per_pixel);
-    if (!varies)
-        return;
+    if (varies)
+        expand(manners);
+}
+
+// Farther from the core PSFs vary by less, and a low degree will do.
+void VaryingPsf::expand(const Manners &manners) {
     for (const double brightest : mode_[0].brightest)
         falls_.push_back(std::max(error_far_off, std::sqrt(brightest / mode_[0].largest())));
-    ExactFields exact(*this);
-    double done = 0.1; // at each level half of what was left
+    Terms terms(*this);
+    double done = first_part; // at each degree half of what was left
     double radius = settings_.radius + margin;
-    for (const int degree : {0, 1, 2, 4, 8, largest_degree}) {
-        degree_ = degree;
-        manners.require_memory(2 * (degree_ + 1) * (degree_ + 1) * plain_.value.nx() *
-                                   plain_.value.ny() * static_cast<int64_t>(sizeof(double)),
-                               "a PSF that varies so much");
-        const double next = (1 + done) / 2;
-        expand(exact, radius, manners.progress.between(done, next));
-        done = next;
-        radius = measure(exact, radius);
-        if (radius == 0)
-            break;
-    }
-    exact_psfs_ = exact.count();
-    left_out_ = share_of_stars * settings_.eps * plain_.faintest_peak;
-    error_ = exact.error() + interpolation_error_ + share_of_stars * settings_.eps;
-}
-
-VaryingPsf::Place VaryingPsf::place(double u, double v) const {
-    return {std::lerp(region_.x0, region_.x1, (1 + u) / 2),
-            std::lerp(region_.y0, region_.y1, (1 + v) / 2)};
-}
-
-// A row of all nodes at a time, along one axis of the detector and then the other. Farther from the
-// star coefficients stay what they were.
-void VaryingPsf::expand(ExactFields &exact, double radius, const Progress &progress) {
-    const int n = degree_ + 1;
-    std::vector<const Plane<double> *> nodes;
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i < n; ++i) {
-            progress.report(static_cast<double>(j * n + i) / (n * n));
-            nodes.push_back(&exact.at(node_of(i, j, degree_), radius).value);
-        }
-    const int64_t size = plain_.value.nx();
-    const std::vector<std::vector<double>> matrix = chebyshev_coefficients(degree_);
-    const auto [begin, end] = reach_of(plain_, radius);
-    const int64_t count = end - begin;
-    std::vector<LightMode> coarse = std::exchange(mode_, {});
-    for (int j = 0; j < n; ++j)
-        for (int i = 0; i + j < n; ++i) {
-            const auto before = std::ranges::find_if(
-                coarse, [i, j](const LightMode &mode) { return mode.i == i && mode.j == j; });
-            mode_.push_back(
-                {i,
-                 j,
-                 before == coarse.end() ? Plane<double>(size, size) : std::move(before->light),
-                 {}});
-        }
-    Plane<double> along_x(count, n);
-    for (int64_t y = begin; y < end; ++y) {
-        for (LightMode &mode : mode_)
-            std::fill_n(mode.light.view().row(y) + begin, count, 0.0);
-        for (int i = 0; i < n; ++i) {
-            std::fill_n(along_x.view().data, count * n, 0.0);
-            for (int row = 0; row < n; ++row)
-                for (int column = 0; column < n; ++column) {
-                    const Plane<double> &light = *nodes[static_cast<size_t>(row * n + column)];
-                    const int64_t edge = (size - light.nx()) / 2; // that it lacks
-                    add_scaled(matrix[static_cast<size_t>(i)][static_cast<size_t>(column)],
-                               light.view().row(y - edge) + begin - edge, count,
-                               along_x.view().row(row));
-                }
-            for (LightMode &mode : mode_)
-                if (mode.i == i)
-                    for (int row = 0; row < n; ++row)
-                        add_scaled(matrix[static_cast<size_t>(mode.j)][static_cast<size_t>(row)],
-                                   along_x.view().row(row), count,
-                                   mode.light.view().row(y) + begin);
+    while (radius > 0 && degree_ < largest_chebyshev_degree) {
+        ++degree_;
+        terms.raise_degree();
+        const size_t first = terms.count(), all = LejaPolynomials::count(degree_);
+        const size_t tests = std::min(all, first + tests_per_degree);
+        manners.require_memory(terms.memory(all - first, radius), "a PSF that varies so much");
+        const Progress progress = manners.progress.between(done, (1 + done) / 2);
+        done = (1 + done) / 2;
+        std::vector<double> by_ring(falls_.size());
+        for (size_t k = first; k < all && radius > 0; ++k) {
+            progress.report(static_cast<double>(k - first) / static_cast<double>(all - first));
+            terms.add(radius, by_ring);
+            if (k < tests)
+                radius = std::min(radius, measure(by_ring, std::pow(before_all, tests - 1 - k)));
         }
     }
-    for (LightMode &mode : mode_)
-        mode.find_brightest(plain_.per_pixel);
+    exact_psfs_ = static_cast<int64_t>(terms.count());
+    mode_ = terms.take_modes();
     std::ranges::stable_sort(mode_, std::ranges::greater(), &LightMode::largest);
     const LeftOut left_out(mode_, std::vector<double>(mode_.size(), 1));
     const double little = share_of_modes * settings_.eps * plain_.faintest_peak;
     while (mode_.size() > 1 && left_out.but_for(mode_.size() - 1) < little)
         mode_.pop_back();
+    left_out_ = share_of_stars * settings_.eps * plain_.faintest_peak;
+    error_ = terms.error() + interpolation_error_ + share_of_stars * settings_.eps;
 }
 
-double VaryingPsf::measure(ExactFields &exact, double radius) {
-    const double safety = degree_ == 0 ? 2 : 1.5; // for all places that are not looked at
-    std::vector<double> by_ring(falls_.size());
-    for (const Node &node : tests_of(degree_)) {
-        const Field &truth = exact.at(node, radius);
-        const auto [x, y] = place(node.u(), node.v());
-        const Field sum = sum_at(x, y);
-        const auto [begin, end] = reach_of(plain_, radius);
-        const int64_t edge = (sum.value.nx() - truth.value.nx()) / 2, centre = sum.value.nx() / 2;
-        for (int64_t j = begin; j < end; ++j)
-            for (int64_t i = begin; i < end; ++i) {
-                const int64_t off = std::max(std::abs(i - centre), std::abs(j - centre));
-                double &most =
-                    by_ring[std::min(static_cast<size_t>(off / sum.per_pixel), by_ring.size() - 1)];
-                most = std::max(
-                    most, safety * std::abs(sum.value(i, j) - truth.value(i - edge, j - edge)) /
-                              truth.faintest_peak);
-            }
-    }
+double VaryingPsf::measure(const std::vector<double> &by_ring, double safety) {
     size_t wrong = by_ring.size(); // rings within
-    while (wrong > 0 && by_ring[wrong - 1] <= share_of_places * settings_.eps * falls_[wrong - 1])
+    while (wrong > 0 &&
+           safety * by_ring[wrong - 1] <= share_of_places * settings_.eps * falls_[wrong - 1])
         --wrong;
-    const double worst_there = *std::ranges::max_element(by_ring);
-    const double worst_beyond =
-        wrong < by_ring.size()
-            ? *std::max_element(by_ring.begin() + static_cast<std::ptrdiff_t>(wrong), by_ring.end())
-            : 0;
-    interpolation_error_ = std::max(error_beyond_, worst_there);
-    error_beyond_ = std::max(error_beyond_, worst_beyond);
-    return std::min(radius, static_cast<double>(wrong));
+    interpolation_error_ = std::max(error_beyond_, safety * by_ring[0]);
+    if (wrong < by_ring.size())
+        error_beyond_ = std::max(error_beyond_, safety * by_ring[wrong]);
+    return static_cast<double>(wrong);
+}
+
+VaryingPsf::Place VaryingPsf::place(double u, double v) const {
+    return {std::lerp(region_.x0, region_.x1, (1 + u) / 2),
+            std::lerp(region_.y0, region_.y1, (1 + v) / 2)};
 }
 
 VaryingPsf::Place VaryingPsf::scaled(double x, double y) const {
@@ -434,8 +419,10 @@ void VaryingPsf::add(std::span<const Star> stars, std::span<const StarDetail> de
 }
 
 int64_t VaryingPsf::memory() const {
-    return static_cast<int64_t>((mode_.size() + 1) * sizeof(double)) * plain_.value.nx() *
-           plain_.value.ny();
+    int64_t samples = plain_.value.nx() * plain_.value.ny();
+    for (const LightMode &mode : mode_)
+        samples += mode.light.nx() * mode.light.ny();
+    return samples * static_cast<int64_t>(sizeof(double));
 }
 
 template void VaryingPsf::add(std::span<const Star>, std::span<const StarDetail>, double, double,

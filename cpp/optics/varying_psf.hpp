@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The PSF all over a detector: a polynomial of the place, by Chebyshev's, whose coefficients are
-// fields of light, made from exact PSFs at some places and held against exact ones at others.
+// The PSF all over a detector: a polynomial of the place whose coefficients are fields of light, made
+// from exact PSFs at ever more places. What those at new places have that those before did not tell
+// is the error so far.
 #pragma once
 
 #include "error/progress.hpp"
@@ -68,12 +69,11 @@ class VaryingPsf {
     };
     Place place(double u, double v) const; // of u, v in [-1, 1]
     bool is_inside(double x, double y) const;
-    class ExactFields;
-    // The polynomials of the present degree out to `radius` native pixels.
-    void expand(ExactFields &exact, double radius, const Progress &progress);
-    // The radius within which they err by too much. Far from the core PSFs vary by less, and a low
-    // degree will do.
-    double measure(ExactFields &exact, double radius);
+    class Terms;
+    void expand(const Manners &manners);
+    // The radius within which polynomials err by too much that are so far off, times `safety`, so
+    // many native pixels from the star or farther.
+    double measure(const std::vector<double> &by_ring, double safety);
     Place scaled(double x, double y) const; // to [-1, 1], the nearest place there
     Field sum_at(double x, double y) const;
     struct CellStars;

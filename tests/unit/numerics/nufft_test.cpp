@@ -151,9 +151,9 @@ TEST(Phasor, IsGoodToRounding) {
 TEST(Fft, GoodLengthsHaveSmallFactorsAndAreNoLongPowersOfTwo) {
     EXPECT_EQ(good_fft_length(1), 1);
     EXPECT_EQ(good_fft_length(11), 12);
-    EXPECT_EQ(good_fft_length(64), 70);
-    EXPECT_EQ(good_fft_length(337), 343);
-    EXPECT_EQ(good_fft_length(512), 525);
+    EXPECT_EQ(good_fft_length(64), 72);
+    EXPECT_EQ(good_fft_length(337), 360);
+    EXPECT_EQ(good_fft_length(512), 540);
 }
 
 } // namespace
