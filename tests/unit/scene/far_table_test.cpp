@@ -99,6 +99,15 @@ TEST(FarTables, StandForExactPsfsOfAllPlaces) {
     }
 }
 
+TEST(FarTables, AreCoarseWhereLittleIsAsked) {
+    const FarTables fine(lights_of_j129(), nullptr, image, {radius, radius, floor});
+    constexpr double little = 1e-6;
+    const FarTables coarse(lights_of_j129(), nullptr, image, {radius, radius, little});
+    const double error = largest_difference(drawn_at(coarse, 900, 3000), drawn_at(fine, 900, 3000));
+    EXPECT_LE(error, 3 * little);
+    EXPECT_GT(error, 0.03 * little);
+}
+
 TEST(FarTables, TellWhatTheyDraw) {
     const FarLight &light = lights_of_j129()[0];
     const FarTables tables({&light, 1}, nullptr, image, {radius, radius, floor});
