@@ -60,14 +60,14 @@ inline double far_light(double pixels, double image) {
     return 1e-4 + 1e-9 * image + 1.1e-8 * pixels;
 }
 inline double far_blocks(double pixels) {
-    return 2e-6 + 1.4e-8 * pixels;
+    return 1e-5 + 3.5e-9 * pixels;
 }
 
 // What they are made from.
 constexpr double making_far_light = 0.06;
 inline double far_tables(double radius, bool varies) {
     const double native = 4 * radius * radius;
-    return varies ? 9 * making_far_light + 5e-6 * native : making_far_light + 2e-6 * native;
+    return varies ? 9 * making_far_light + 1e-6 * native : making_far_light + 5e-7 * native;
 }
 
 // What galaxies are drawn with.

@@ -46,7 +46,7 @@ struct MiddleLight {
 
     // Of blocks that are wanted: how far their samples reach, and work(range) on those.
     template <class Wanted> int64_t half_width(const Wanted &wanted) const {
-        int64_t most = 0;
+        int64_t most = 16; // splines have so many samples or more
         for (const Block &of : blocks)
             if (wanted(of))
                 most = std::max(most, of.half_width());

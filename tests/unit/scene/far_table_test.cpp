@@ -9,7 +9,7 @@
 namespace wfpsf {
 namespace {
 
-constexpr double radius = 60, floor = 1e-11;
+constexpr double radius = 42, floor = 1e-9;
 constexpr double nearest = 25; // whole pixels beyond where far light begins
 const Region image{0, 0, 4088, 4088};
 const Star star{61.3, 80.8, 1};
@@ -27,6 +27,12 @@ std::vector<FarLight> at_places(const SceneOptics &optics) {
     std::vector<FarLight> lights;
     for (const auto &[x, y] : FarTables::places(image, true))
         lights.push_back(far_light(optics, x, y));
+    return lights;
+}
+
+// It takes long to make them.
+const std::vector<FarLight> &lights_of_j129() {
+    static const std::vector<FarLight> lights = at_places(broadband("J129", 7));
     return lights;
 }
 
@@ -57,8 +63,7 @@ Plane<double> drawn_at(const FarTables &tables, double x, double y) {
 }
 
 TEST(FarTables, OfFarLightAloneAreThat) {
-    const SceneOptics optics = broadband("J129", 7);
-    const FarLight light = far_light(optics, 2044, 2044);
+    const FarLight &light = lights_of_j129()[0];
     const FarTables tables({&light, 1}, nullptr, image, {radius, radius, floor});
     Plane<double> expected(160, 150);
     light.add(star, nearest, floor, expected.view());
@@ -70,32 +75,59 @@ TEST(FarTables, OfFarLightAloneAreThat) {
 
 // What plans count on: cpp/scene/ways.cpp.
 TEST(FarTables, StandForExactPsfsOfAllPlaces) {
-    for (const auto &[band, sca] :
-         {std::pair("J129", 7), std::pair("Z087", 3), std::pair("H158", 12)}) {
+    const std::pair edge(100.0, 1000.0), between(3100.0, 3200.0);
+    for (const auto &[band, sca, places] :
+         {std::tuple("J129", 7, std::vector{edge, between}),
+          std::tuple("Z087", 3, std::vector{edge}), std::tuple("H158", 12, std::vector{between})}) {
         const SceneOptics optics = broadband(band, sca);
-        const std::vector<FarLight> lights = at_places(optics);
+        const std::vector<FarLight> lights = sca == 7 ? lights_of_j129() : at_places(optics);
         const Psf middle = exact(optics, 2044, 2044);
         const FarTables tables(lights, &middle, image, {radius, radius, floor});
-        for (const auto &[x, y] : {std::pair(100.0, 1000.0), std::pair(3100.0, 3200.0)}) {
-            Plane<double> truth(160, 150), of_middle(160, 150);
+        Plane<double> of_middle(160, 150), edges(160, 150);
+        middle.add({&star, 1}, 1, of_middle.view(), 1);
+        lights[0].add(star, nearest, floor, edges.view());
+        EXPECT_LE(largest_difference(edges, of_middle),
+                  0.8 * FarReach(lights[0], 1).error(nearest, 0, 1))
+            << band;
+        for (const auto &[x, y] : places) {
+            Plane<double> truth(160, 150);
             exact(optics, x, y).add({&star, 1}, 1, truth.view(), 1);
-            middle.add({&star, 1}, 1, of_middle.view(), 1);
             const double error = largest_difference(drawn_at(tables, x, y), truth);
             EXPECT_LE(error, 3e-3 * lights[0].brightest_beyond(nearest)) << band;
             EXPECT_LE(5 * error, largest_difference(of_middle, truth)) << band;
-            Plane<double> edges(160, 150);
-            far_light(optics, x, y).add(star, nearest, floor, edges.view());
-            EXPECT_LE(largest_difference(edges, truth),
-                      0.8 * FarReach(lights[0], 1).error(nearest, 0, 1))
-                << band;
         }
     }
 }
 
+TEST(FarTables, AreCoarseWhereLittleIsAsked) {
+    const FarTables fine(lights_of_j129(), nullptr, image, {radius, radius, floor});
+    constexpr double little = 1e-6;
+    const FarTables coarse(lights_of_j129(), nullptr, image, {radius, radius, little});
+    const double error = largest_difference(drawn_at(coarse, 900, 3000), drawn_at(fine, 900, 3000));
+    EXPECT_LE(error, 3 * little);
+    EXPECT_GT(error, 0.03 * little);
+}
+
+TEST(FarTables, TellWhatTheyDraw) {
+    const FarLight &light = lights_of_j129()[0];
+    const FarTables tables({&light, 1}, nullptr, image, {radius, radius, floor});
+    for (const double faint : {1e-6, 1e-8})
+        for (const double within : {35.0, 1e9}) {
+            Plane<double> drawn(160, 150);
+            tables.middle().add(star, nearest + 3, faint, drawn.view(), 0, drawn.ny() - 1);
+            double sum = 0;
+            for (int64_t y = 0; y < drawn.ny(); ++y)
+                for (int64_t x = 0; x < drawn.nx(); ++x)
+                    if (std::max(std::abs(static_cast<double>(x) - star.x),
+                                 std::abs(static_cast<double>(y) - star.y)) <= within)
+                        sum += drawn(x, y);
+            EXPECT_NEAR(tables.middle().light(within, nearest + 3, faint), sum, 0.05 * sum);
+        }
+}
+
 TEST(FarTables, DrawRowsAsTheWholeAndLeaveOutWhatIsFaint) {
-    const SceneOptics optics = broadband("J129", 7);
-    const std::vector<FarLight> lights = at_places(optics);
-    const FarTables tables(lights, nullptr, image, {radius, radius, floor});
+    constexpr double wide = 60;
+    const FarTables tables(lights_of_j129(), nullptr, image, {wide, wide, floor});
     const Plane<double> whole = drawn_at(tables, 900, 3000);
     Plane<double> rows(160, 150);
     for (int64_t y = 0; y < rows.ny(); y += 7)
