@@ -27,7 +27,7 @@ constexpr double margin = 1;
 
 // How eps is shared out: to the exact PSFs, to the fields that are left out, to the interpolation,
 // and to what is left out of single stars.
-constexpr double share_of_exact = 0.4, share_of_modes = 0.05, share_of_places = 0.3,
+constexpr double share_of_exact = 0.55, share_of_modes = 0.05, share_of_places = 0.3,
                  share_of_stars = 0.1;
 // How that is shared out in turn: to the coefficients for all places, to a cell's polynomials, to its
 // coefficients, and to stars.
