@@ -25,9 +25,9 @@ constexpr double error_factor = 8;
 constexpr double rounding = AveragedSamples::rounding;
 
 // exp(beta (sqrt(1 - u^2) - 1)), without what its difference would lose near the middle.
-double window(double beta, double u) {
+[[gnu::always_inline]] inline double window(double beta, double u) {
     const double squared = std::min(1.0, u * u);
-    return std::exp(-beta * squared / (1 + std::sqrt(1 - squared)));
+    return branchless_exp(-beta * squared / (1 + std::sqrt(1 - squared)));
 }
 
 // The kernel `half_width` samples before a place and as many behind it: numerator is sin(pi t) / pi
@@ -37,9 +37,7 @@ WFPSF_VECTORISED void windowed_sinc(double beta, int half_width, double offset, 
     const double scale = 1.0 / half_width;
     for (int k = 0; k < 2 * half_width; ++k) {
         const double t = offset + (half_width - 1 - k);
-        const double u = t * scale, squared = std::min(1.0, u * u);
-        const double below = branchless_exp(-beta * squared / (1 + std::sqrt(1 - squared)));
-        w[k] = below * (numerator - 2 * (k % 2) * numerator) / t;
+        w[k] = window(beta, t * scale) * (numerator - 2 * (k % 2) * numerator) / t;
     }
 }
 

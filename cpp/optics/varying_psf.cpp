@@ -7,6 +7,7 @@
 #include "numerics/leja.hpp"
 #include "optics/add_stars.hpp"
 #include "optics/cell_psf.hpp"
+#include "optics/field_terms.hpp"
 #include "optics/sum_blocks.hpp"
 
 #include <algorithm>
@@ -26,7 +27,7 @@ constexpr double margin = 1;
 
 // How eps is shared out: to the exact PSFs, to the fields that are left out, to the interpolation,
 // and to what is left out of single stars.
-constexpr double share_of_exact = 0.4, share_of_modes = 0.05, share_of_places = 0.45,
+constexpr double share_of_exact = 0.55, share_of_modes = 0.05, share_of_places = 0.3,
                  share_of_stars = 0.1;
 // How that is shared out in turn: to the coefficients for all places, to a cell's polynomials, to its
 // coefficients, and to stars.
@@ -39,7 +40,7 @@ constexpr double first_part = 0.1;
 // A degree's first places tell whether the polynomials below it will do. Before all of them are
 // known, errors must be smaller by a factor for each that is not.
 constexpr size_t tests_per_degree = 3;
-constexpr double before_all = 2;
+constexpr double before_all = 4;
 
 PsfSettings exact_settings(PsfSettings settings, bool varies) {
     if (varies)
@@ -48,116 +49,6 @@ PsfSettings exact_settings(PsfSettings settings, bool varies) {
 }
 
 } // namespace
-
-// What exact fields at ever more places have that those before do not tell: the coefficients of
-// polynomials in Newton's form.
-class VaryingPsf::Terms {
-  public:
-    explicit Terms(const VaryingPsf &of) : of_(of), error_(of.plain_.error) {
-        light_.push_back(of.plain_.value);
-    }
-
-    void raise_degree() { polynomials_.raise(); }
-    size_t count() const { return light_.size(); }
-    double error() const { return error_; } // of any exact field
-
-    // With so many more out to a radius, and the modes that they become, at most: bytes.
-    int64_t memory(size_t more, double radius) const {
-        const auto area = [&](int64_t half) {
-            return (2 * (half + border()) + 1) * (2 * (half + border()) + 1);
-        };
-        int64_t samples =
-            static_cast<int64_t>(more) * area(samples_within(radius, of_.plain_.per_pixel,
-                                                             of_.plain_.interpolator.half_width()));
-        for (const Plane<double> &light : light_)
-            samples += area(light.nx() / 2);
-        return 2 * samples * static_cast<int64_t>(sizeof(double));
-    }
-
-    // The next one, out to `radius` native pixels. Raises what is off by ring, of the brightest
-    // pixel.
-    void add(double radius, std::vector<double> &by_ring) {
-        const size_t own = count();
-        const auto [x, y] = of_.place(polynomials_.u(own), polynomials_.v(own));
-        Field exact = make_field_like(of_.plain_, of_.optics_(x, y), of_.settings_, radius);
-        error_ = std::max(error_, exact.error);
-        const int64_t half = exact.value.nx() / 2;
-        for (int64_t row = -half; row <= half; ++row)
-            for (size_t k = 0; k < own; ++k)
-                add_row(-polynomials_.at_place_of(k, own), light_[k], row, exact.value);
-        const std::vector<double> off = brightest_by_pixel(exact.value, exact.per_pixel);
-        for (size_t r = 0; r < off.size(); ++r)
-            by_ring[r] = std::max(by_ring[r], off[r] / exact.faintest_peak);
-        light_.push_back(std::move(exact.value));
-    }
-
-    // By Chebyshev's polynomials, each as large as the first term of its degree, and zeros around
-    // it. Those take the planes of terms that are as large: fresh memory costs more than the sums.
-    std::vector<LightMode> take_modes() {
-        const int64_t largest = of_.plain_.value.nx();
-        std::vector<LightMode> modes;
-        for (int degree = 0; degree <= of_.degree_; ++degree) {
-            const int64_t reach = light_[LejaPolynomials::count(degree - 1)].nx();
-            const int64_t size = std::min(reach + 2 * border(), largest);
-            for (int j = 0; j <= degree; ++j) {
-                const bool taken = modes.size() < count() && light_[modes.size()].nx() == size;
-                modes.push_back({degree - j,
-                                 j,
-                                 taken ? Plane<double>() : Plane<double>::unset(size, size),
-                                 {}});
-            }
-        }
-        Plane<double> rows(largest, static_cast<int64_t>(count())); // of all terms
-        for (int64_t y = -largest / 2; y <= largest / 2; ++y) {
-            for (size_t k = 0; k < count(); ++k)
-                if (const int64_t half = light_[k].nx() / 2; std::abs(y) <= half)
-                    std::copy_n(light_[k].view().row(half + y), 2 * half + 1,
-                                rows.view().row(static_cast<int64_t>(k)) + largest / 2 - half);
-            for (size_t m = 0; m < modes.size(); ++m) {
-                Plane<double> &light = modes[m].light.nx() > 0 ? modes[m].light : light_[m];
-                const int64_t half = light.nx() / 2;
-                if (std::abs(y) > half)
-                    continue;
-                double *const row = light.view().row(half + y);
-                std::fill_n(row, light.nx(), 0.0);
-                for (size_t k = 0; k < count(); ++k) {
-                    const double part = polynomials_.coefficient(k, m);
-                    const int64_t reach = std::min(light_[k].nx() / 2, half);
-                    if (part != 0 && std::abs(y) <= light_[k].nx() / 2)
-                        add_scaled(part,
-                                   rows.view().row(static_cast<int64_t>(k)) + largest / 2 - reach,
-                                   2 * reach + 1, row + half - reach);
-                }
-            }
-        }
-        for (size_t m = 0; m < modes.size(); ++m) {
-            if (modes[m].light.nx() == 0)
-                modes[m].light = std::move(light_[m]);
-            modes[m].find_brightest(of_.plain_.per_pixel);
-            modes[m].brightest.resize(of_.falls_.size());
-        }
-        return modes;
-    }
-
-  private:
-    // Samples: a stamp's that take any of a term lie within it.
-    int64_t border() const {
-        return 2 * of_.plain_.interpolator.half_width() + of_.plain_.per_pixel;
-    }
-    // So many times row y of light from the middle, if there is such a one: a row at a time all that
-    // it is added to stays in the cache.
-    static void add_row(double weight, const Plane<double> &light, int64_t y, Plane<double> &sum) {
-        const int64_t from = light.nx() / 2, to = sum.nx() / 2, half = std::min(from, to);
-        if (std::abs(y) <= from)
-            add_scaled(weight, light.view().row(from + y) + from - half, 2 * half + 1,
-                       sum.view().row(to + y) + to - half);
-    }
-
-    const VaryingPsf &of_;
-    LejaPolynomials polynomials_;
-    std::vector<Plane<double>> light_; // as far as each matters
-    double error_;
-};
 
 VaryingPsf::VaryingPsf(OpticsAt optics, bool varies, Light light, const PsfSettings &settings,
                        const Region &region, const Manners &manners)
@@ -179,12 +70,17 @@ VaryingPsf::VaryingPsf(OpticsAt optics, bool varies, Light light, const PsfSetti
 void VaryingPsf::expand(const Manners &manners) {
     for (const double brightest : mode_[0].brightest)
         falls_.push_back(std::max(error_far_off, std::sqrt(brightest / mode_[0].largest())));
-    Terms terms(*this);
+    FieldTerms terms(
+        plain_,
+        [this](double u, double v) {
+            return optics_(std::lerp(region_.x0, region_.x1, (1 + u) / 2),
+                           std::lerp(region_.y0, region_.y1, (1 + v) / 2));
+        },
+        settings_);
     double done = first_part; // at each degree half of what was left
     double radius = settings_.radius + margin;
     while (radius > 0 && degree_ < largest_chebyshev_degree) {
         ++degree_;
-        terms.raise_degree();
         const size_t first = terms.count(), all = LejaPolynomials::count(degree_);
         const size_t tests = std::min(all, first + tests_per_degree);
         manners.require_memory(terms.memory(all - first, radius), "a PSF that varies so much");
@@ -218,11 +114,6 @@ double VaryingPsf::measure(const std::vector<double> &by_ring, double safety) {
     if (wrong < by_ring.size())
         error_beyond_ = std::max(error_beyond_, safety * by_ring[wrong]);
     return static_cast<double>(wrong);
-}
-
-VaryingPsf::Place VaryingPsf::place(double u, double v) const {
-    return {std::lerp(region_.x0, region_.x1, (1 + u) / 2),
-            std::lerp(region_.y0, region_.y1, (1 + v) / 2)};
 }
 
 VaryingPsf::Place VaryingPsf::scaled(double x, double y) const {

@@ -67,9 +67,7 @@ class VaryingPsf {
     struct Place {
         double x, y;
     };
-    Place place(double u, double v) const; // of u, v in [-1, 1]
     bool is_inside(double x, double y) const;
-    class Terms;
     void expand(const Manners &manners);
     // The radius within which polynomials err by too much that are so far off, times `safety`, so
     // many native pixels from the star or farther.

@@ -27,14 +27,18 @@ inline double large_stamp(double pixels, double radius, double bandwidth) {
     return wavelengths * 3e-6 * pixels;
 }
 
-// A PSF of all of a detector whose optics vary: many exact ones near the core, few far from it.
+// A PSF of all of a detector whose optics vary: n + 1 exact ones for every degree n of its polynomials,
+// which reach less far the higher the degree.
 inline double shared_psf(double radius, double eps, double bandwidth, bool varies) {
     if (!varies)
         return psf(radius, eps, bandwidth);
-    const auto within = [=](double r) { return psf(std::min(radius, r), eps, bandwidth); };
-    const double core = 16 * std::sqrt(1e-5 / eps);
-    return 30 * psf(radius, eps, bandwidth) + 15 * within(std::max(8.0, core)) +
-           60 * within(std::max(4.0, core / 2));
+    constexpr double falls = 2.3, nearest = 2.5; // native pixels
+    double time = 0, reach = 20 * std::pow(falls, digits(eps) - 1);
+    for (int fields = 2; reach > nearest; ++fields) {
+        time += 1.4 * fields * psf(std::min(radius, reach), eps, bandwidth);
+        reach /= falls;
+    }
+    return time;
 }
 
 // A star's stamp of width^2 pixels from a field made to `eps`, of so many native pixels' radius.
