@@ -125,13 +125,12 @@ template <class T> class PolarSums::Ring {
     std::vector<Complex> in_, out_;
 };
 
-// For the colours of one sum, of each term: the transfer at frequencies in periods of a ray, in
-// units of all colours' weight.
+// What each term's frequencies 0, 1, ... are multiplied by in one sum, in periods of a ray.
 template <class T>
 std::vector<std::vector<Complex>>
 PolarSums::Ring<T>::transfer(std::span<const ScaledColour> colours, size_t sum) const {
     const auto frequencies =
-        static_cast<size_t>((1 + fading) * grid_.highest() * grid_.length()) + 1;
+        static_cast<size_t>((1 + fading) * grid_.highest() * grid_.length()) + 2;
     std::vector<std::vector<Complex>> transfer(of_.terms_.count(),
                                                std::vector<Complex>(frequencies));
     std::vector<double> re(frequencies), im(frequencies);
@@ -168,7 +167,7 @@ double PolarSums::Ring<T>::highest_bright(const std::vector<std::vector<Complex>
     auto f = static_cast<size_t>(grid_.highest() * grid_.length());
     while (f > 0 && !is_bright(f))
         --f;
-    return static_cast<double>(f + 1) / grid_.length();
+    return std::min(static_cast<double>(f + 1) / grid_.length(), grid_.highest());
 }
 
 template <class T>
