@@ -58,9 +58,11 @@ double faintest_near(const Plane<double> &value, int64_t per_pixel, int64_t peak
 // Bytes that so many fields take while they are made: the last image, and all planes of its size.
 int64_t memory(const ImageMaker &maker, const Scaling &scaling, size_t fields) {
     const FocalGrid grid = scaling.grid(scaling.wavelengths()[0]);
-    const auto planes = static_cast<int64_t>(scaling.wavelengths().size() + 2 * fields);
-    return maker.memory(grid) +
-           planes * grid.size * grid.size * static_cast<int64_t>(sizeof(double));
+    const auto bytes = [](const FocalGrid &of, size_t planes) {
+        return static_cast<int64_t>(planes * sizeof(double)) * of.size * of.size;
+    };
+    return maker.memory(grid) + bytes(grid, scaling.wavelengths().size()) +
+           bytes(maker.grid(), 2 * fields);
 }
 
 // What errors come from, in shares of a tolerance.

@@ -3,9 +3,9 @@
 
 namespace wfpsf {
 
-// Between places a kernel varies no faster than a sinc, whose fourth derivative is pi^4 / 5 at most:
-// a cubic through four of them errs by 3 / 128 of it times the step to the fourth, which is to be
-// less than half of the kernel's own error.
+// Between places a kernel varies no faster than a sinc, whose fourth derivative is at most
+// pi^4 / 5. A cubic errs by 3 / 128 of that times the step to the fourth: by less than half of what
+// the kernel does itself.
 template <class T>
 FilterTable<T>::FilterTable(const BandlimitedInterpolator &of)
     : half_width_(of.half_width()), padded_((of.taps() + lanes - 1) / lanes * lanes),

@@ -100,10 +100,13 @@ ScalingTerms::Light light_of(const ScalingTerms &terms, const Side &side, Range 
 } // namespace
 
 template <class T> PolarFilters<T>::PolarFilters(const PolarBand &band, double eps) {
-    for (double missed = best; missed <= worst; missed *= fainter)
+    double missed = best;
+    do {
         sets_.push_back({eps / missed, FilterTable<T>({band.along_axes, missed}),
                          FilterTable<T>({PolarGrid::band_of_distances, missed}),
                          FilterTable<T>({PolarGrid::band_of_rays, missed})});
+        missed *= fainter;
+    } while (missed <= worst);
 }
 
 template <class T> auto PolarFilters<T>::for_light(double light) const -> const Set & {
@@ -117,12 +120,12 @@ const int64_t PolarGrid::padding = block;
 
 PolarGrid::PolarGrid(const ScalingTerms &terms, const PolarBand &band, double inner, double outer,
                      double smallest_ratio, double largest_ratio, double ends, double best)
-    : terms_(terms), best_(best), inner_(inner), outer_(outer), smallest_(smallest_ratio),
-      largest_(largest_ratio), start_(std::log(inner * smallest_) - ends),
+    : terms_(terms), best_(best), ends_(ends), inner_(inner), outer_(outer),
+      smallest_(smallest_ratio), largest_(largest_ratio),
+      start_(std::log(inner * smallest_) - ends),
       length_(std::log(outer * largest_) + ends - start_) {
     const double farthest = std::exp(start_ + length_);
     highest_ = band.along_rays * farthest;
-    highest_needed_ = band.along_rays * outer * largest_;
     // As dense as they must be, or denser so that batches of them are full.
     const auto beyond = static_cast<double>(longest(band_of_rays));
     const double densest = band.along_axes * farthest / band_of_rays;

@@ -56,11 +56,11 @@ class PolarGrid {
     PolarGrid(const ScalingTerms &terms, const PolarBand &band, double inner, double outer,
               double smallest_ratio, double largest_ratio, double ends, double best);
 
+    double ends() const { return ends_; }
     double start() const { return start_; }     // ln distance in the terms of the first sample
     double length() const { return length_; }   // of a ray in ln distance
     double highest() const { return highest_; } // frequency in it
-    double highest_needed() const { return highest_needed_; } // in the image
-    int64_t rays() const { return rays_; }                    // of a side
+    int64_t rays() const { return rays_; }      // of a side
 
     // How many rays are sampled together, and transformed together; and how many terms can be.
     static constexpr int64_t sector = 64, batch = 8, most_terms = 32;
@@ -100,9 +100,9 @@ class PolarGrid {
     }
 
     const ScalingTerms &terms_;
-    double best_;
+    double best_, ends_;
     double inner_, outer_, smallest_, largest_; // ratios
-    double start_, length_, highest_, highest_needed_;
+    double start_, length_, highest_;
     double step_; // of rays, on a side that is one sample off the axis
     int64_t rays_;
     double middle_ray_;

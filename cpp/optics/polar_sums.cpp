@@ -125,12 +125,12 @@ template <class T> class PolarSums::Ring {
     std::vector<Complex> in_, out_;
 };
 
-// For the colours of one sum, of each term: the transfer at frequencies in periods of a ray, in
-// units of all colours' weight.
+// What each term's frequencies 0, 1, ... are multiplied by in one sum, in periods of a ray.
 template <class T>
 std::vector<std::vector<Complex>>
 PolarSums::Ring<T>::transfer(std::span<const ScaledColour> colours, size_t sum) const {
-    const auto frequencies = static_cast<size_t>(grid_.highest() * grid_.length()) + 1;
+    const auto frequencies =
+        static_cast<size_t>((1 + fading) * grid_.highest() * grid_.length()) + 2;
     std::vector<std::vector<Complex>> transfer(of_.terms_.count(),
                                                std::vector<Complex>(frequencies));
     std::vector<double> re(frequencies), im(frequencies);
@@ -150,22 +150,24 @@ PolarSums::Ring<T>::transfer(std::span<const ScaledColour> colours, size_t sum) 
 }
 
 // The highest frequency that counts: one is found only so far from the axis that it can be as high,
-// and light beyond the image is of no use.
+// or nearer by no more than filters reach.
 template <class T>
 double PolarSums::Ring<T>::highest_bright(const std::vector<std::vector<Complex>> &transfer,
                                           double weight) const {
-    const auto is_bright = [&](double frequency) {
-        const auto f = static_cast<size_t>(frequency * grid_.length());
-        const double from = std::max(std::exp(grid_.start()), frequency / of_.band_.along_axes);
+    const auto is_bright = [&](size_t f) {
+        const double frequency = static_cast<double>(f) / grid_.length();
+        const double from =
+            std::max(std::exp(grid_.start()), frequency * std::numbers::sqrt2 /
+                                                  of_.band_.along_rays * std::exp(-grid_.ends()));
         double light = 0;
         for (size_t m = 0; m < transfer.size(); ++m)
             light += std::abs(transfer[m][f]) * of_.terms_.largest_beyond(m, from);
         return light > share_left_out * of_.eps_ * weight;
     };
-    auto f = static_cast<size_t>(grid_.highest_needed() * grid_.length());
-    while (f > 0 && !is_bright((static_cast<double>(f) + 0.5) / grid_.length()))
+    auto f = static_cast<size_t>(grid_.highest() * grid_.length());
+    while (f > 0 && !is_bright(f))
         --f;
-    return static_cast<double>(f + 1) / grid_.length();
+    return std::min(static_cast<double>(f + 1) / grid_.length(), grid_.highest());
 }
 
 template <class T>
@@ -187,8 +189,7 @@ PolarSums::Ring<T>::Ring(const PolarSums &of, const PolarFilters<T> &filters,
     samples_ = good_fft_length(static_cast<int64_t>(std::ceil((highest + band + fade) * length)));
     kept_ = good_fft_length(
         static_cast<int64_t>(std::ceil(band * length / PolarGrid::band_of_distances)));
-    needed_ = std::min({static_cast<int64_t>(highest * length) + 1,
-                        static_cast<int64_t>((band + fade) * length) + 1, (kept_ + 1) / 2});
+    needed_ = std::min(static_cast<int64_t>((band + fade) * length) + 1, (kept_ + 1) / 2);
     const double sharpest = 2 * band + fade; // cycles, one of which is a filter's sample
     const BandlimitedInterpolator filter(band / sharpest, PolarFilters<T>::best);
     for (const std::vector<std::vector<Complex>> &of_sum : transfers) {

@@ -25,9 +25,10 @@ constexpr double share_of_terms = 0.45, share_of_filters = 0.35, share_left_out 
 constexpr double fainter = 1.0 / 16, safety = 2;
 constexpr double single_rounding = 4e-7; // of sums in single precision, of the largest sample
 
-// Rays are worth their while from so many fringes on that the colours differ by, if the image is so
-// much larger. The images they start from are only sampled as finely as serves filters best then,
-// in cycles a sample.
+// Rays are worth their while from so many fringes on that the colours differ by, if there are more
+// than so many times as many that are not fainter than eps: spikes fall as the square of the
+// distance. The images that rays start from are only sampled as finely as serves filters best, in
+// cycles a sample.
 constexpr double nearest_for_rays = 13, worthwhile = 2, band_for_rays = 0.3;
 
 // Images at Chebyshev's points become the polynomial's terms.
@@ -75,7 +76,8 @@ Scaling::Scaling(const ImageMaker &maker, double blue, double red, double eps)
     for (int k = 0; k < terms; ++k)
         wavelengths_.push_back(1 / (middle_ + half_ * std::cos(pi * (k + 0.5) / terms)));
     const double nearest = nearest_for_rays / (maker.bandwidth() * std::log(red / blue));
-    if (to_.half() > worthwhile * nearest) {
+    const double fringed = 1 / (pi * maker.bandwidth() * std::sqrt(eps));
+    if (std::min(to_.half(), fringed) > worthwhile * nearest) {
         coarser_ = std::max(1.0, band_for_rays / maker.bandwidth());
         rays_from_ = nearest;
     }

@@ -194,7 +194,7 @@ TEST(Scaling, WideFieldsMeetTheSumOfTheirColours) {
     const Optics optics{segments(), aberrated(1), 1293e-9};
     PsfSettings of = settings(1e-9);
     of.radius = radius;
-    Spectrum spectrum = some_of(light_of("J129")(0), 200);
+    Spectrum spectrum = some_of(light_of("J129")(0), 120);
     Plane<double> truth(width, width);
     for (size_t i = 0; i < spectrum.size(); ++i) {
         PsfSettings own = of;
