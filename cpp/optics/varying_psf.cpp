@@ -233,6 +233,30 @@ std::vector<VaryingPsf::CellStars> VaryingPsf::by_cell(std::span<const size_t> w
     return all;
 }
 
+namespace {
+
+// How far coefficients for stars anywhere pay: they take as long to make as some stars of that radius
+// take to draw by themselves. 0: not at all.
+double worthwhile_reach(std::span<const size_t> which, std::span<const StarDetail> details) {
+    constexpr double some = 100;
+    std::vector<double> radii;
+    for (const size_t i : which)
+        radii.push_back(details[i].radius);
+    std::ranges::sort(radii, std::greater());
+    double reach = 0, least = INFINITY, alone = 0; // the latter those that are wider
+    for (const double radius : radii) {
+        const double time = some * radius * radius + alone;
+        if (time < least) {
+            least = time;
+            reach = radius;
+        }
+        alone += radius * radius;
+    }
+    return alone < least ? 0 : reach;
+}
+
+} // namespace
+
 template <class T>
 void VaryingPsf::add(std::span<const Star> stars, std::span<const StarDetail> details, double x0,
                      double y0, int64_t oversampling, View<T> image, int threads) const {
@@ -257,19 +281,19 @@ void VaryingPsf::add(std::span<const Star> stars, std::span<const StarDetail> de
     // From coefficients of type S, unless they are so few that making those takes longer; returns
     // the others, and those that coefficients will not do for.
     const auto by_cells = [&]<class S>(S, const std::vector<size_t> &which) {
-        constexpr size_t few = 100;
-        if (which.size() < few)
+        StarDetail most{worthwhile_reach(which, details), INFINITY};
+        const auto is_near = [&](size_t i) { return details[i].radius <= most.radius; };
+        for (const size_t i : which)
+            if (is_near(i))
+                most.left_out = std::min(most.left_out, details[i].left_out);
+        if (most.radius == 0)
             return which;
-        StarDetail most{0, INFINITY};
-        for (const size_t i : which) {
-            most.radius = std::max(most.radius, details[i].radius);
-            most.left_out = std::min(most.left_out, details[i].left_out);
-        }
         const CellPsf<S> all(mode_, plain_, most.radius, oversampling, share_of_all * most.left_out,
                              threads);
         std::vector<size_t> served, others;
         for (const size_t i : which)
-            (all.serves(share_of_all * details[i].left_out) ? served : others).push_back(i);
+            (is_near(i) && all.serves(share_of_all * details[i].left_out) ? served : others)
+                .push_back(i);
         const std::vector<CellStars> cells = by_cell(served, places, details);
         on_rows([&](StarRows<T> &rows) {
             CellPsf<S> anywhere(all);
