@@ -205,7 +205,7 @@ void ScenePlan::learn_colours(const SceneOptics &optics) {
         const auto known = colour.kept.facts;
         colour.kept.facts = facts_of(optics, light, brightest, known);
         if (reuse_.store && colour.kept.facts != known)
-            reuse_.store->keep(colour.key, colour.kept.facts);
+            reuse_.store->keep(colour.key, {.facts = colour.kept.facts});
     }
 }
 

@@ -106,6 +106,11 @@ template <class T> class Renderer {
         return all;
     }
 
+    void keep(int32_t colour, const KeptPsfs &made) const {
+        if (plan_.reuse().store)
+            plan_.reuse().store->keep(plan_.key(colour), made);
+    }
+
     std::shared_ptr<const VaryingPsf> model_of(int32_t colour) {
         const SharedModel &model = plan_.models()[static_cast<size_t>(colour)];
         for (const KeptPsfs &there : kept(colour))
@@ -116,8 +121,7 @@ template <class T> class Renderer {
             settings(model.eps, model.radius), optics_.region,
             Manners{manners_.progress.between(0, 0.2), manners_.memory_limit});
         report_.exact_psfs += made->exact_psfs();
-        if (plan_.reuse().store)
-            plan_.reuse().store->keep(plan_.key(colour), model, made);
+        keep(colour, {.model = model, .psf = made});
         return made;
     }
 
@@ -158,8 +162,7 @@ template <class T> class Renderer {
         auto made = std::make_shared<FarTables>(
             facts.far_lights, exact ? &*exact : nullptr, plan_.region(),
             FarTables::Extent{far.radius, far.differences_radius, below * far.floor});
-        if (plan_.reuse().store)
-            plan_.reuse().store->keep(plan_.key(colour), far, made);
+        keep(colour, {.far = far, .tables = made});
         return made;
     }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/scene_store.hpp"
 
-#include <utility>
-
 namespace wfpsf {
 
 namespace {
@@ -17,25 +15,19 @@ KeptPsfs SceneStore::find(uint64_t key) const {
     return found == kept_.end() ? KeptPsfs{} : found->second;
 }
 
-void SceneStore::keep(uint64_t key, std::shared_ptr<const ColourFacts> facts) {
-    const std::lock_guard lock(mutex_);
-    kept_[key].facts = std::move(facts);
-}
-
-void SceneStore::keep(uint64_t key, const SharedModel &model,
-                      std::shared_ptr<const VaryingPsf> psf) {
+void SceneStore::keep(uint64_t key, const KeptPsfs &made) {
     const std::lock_guard lock(mutex_);
     KeptPsfs &kept = kept_[key];
-    kept.model = model;
-    kept.psf = std::move(psf);
-}
-
-void SceneStore::keep(uint64_t key, const SharedFarLight &far,
-                      std::shared_ptr<const FarTables> tables) {
-    const std::lock_guard lock(mutex_);
-    KeptPsfs &kept = kept_[key];
-    kept.far = far;
-    kept.tables = std::move(tables);
+    if (made.facts)
+        kept.facts = made.facts;
+    if (made.psf) {
+        kept.model = made.model;
+        kept.psf = made.psf;
+    }
+    if (made.tables) {
+        kept.far = made.far;
+        kept.tables = made.tables;
+    }
 }
 
 int64_t SceneStore::memory() const {

@@ -15,21 +15,19 @@ namespace wfpsf {
 
 // Of one colour on one image of a detector. What is not there has not been made.
 struct KeptPsfs {
-    std::shared_ptr<const ColourFacts> facts;
-    SharedModel model; // what `psf` was made for
-    std::shared_ptr<const VaryingPsf> psf;
-    SharedFarLight far; // what `tables` were made for
-    std::shared_ptr<const FarTables> tables;
+    std::shared_ptr<const ColourFacts> facts = {};
+    SharedModel model = {}; // what `psf` was made for
+    std::shared_ptr<const VaryingPsf> psf = {};
+    SharedFarLight far = {}; // what `tables` were made for
+    std::shared_ptr<const FarTables> tables = {};
 };
 
 // Holds for every key what was kept last. Thread-safe.
 class SceneStore {
   public:
     KeptPsfs find(uint64_t key) const;
-    void keep(uint64_t key, std::shared_ptr<const ColourFacts> facts);
-    void keep(uint64_t key, const SharedModel &model, std::shared_ptr<const VaryingPsf> psf);
-    void keep(uint64_t key, const SharedFarLight &far, std::shared_ptr<const FarTables> tables);
-    int64_t memory() const; // bytes, about
+    void keep(uint64_t key, const KeptPsfs &made); // what of it was made
+    int64_t memory() const;                        // bytes, about
 
   private:
     mutable std::mutex mutex_;
