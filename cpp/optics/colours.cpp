@@ -95,8 +95,10 @@ ColourChoice choose_wavelengths(std::span<const Spectrum> spectra, double longes
         fringes.emplace_back(paths.count);
         add(spectrum.wavelength, spectrum.weight, paths, fringes.back());
     }
+    constexpr double most = 500; // points: a rule takes the cube of their number to make
+    const double share = std::min(largest_share, most / static_cast<double>(all.size()));
     for (size_t n = usual_size(flat_range(all), longest_path, brightness, eps);; n += 1 + n / 16) {
-        ColourChoice choice{WavelengthRule(all, n, largest_share), {}, 0};
+        ColourChoice choice{WavelengthRule(all, n, share), {}, 0};
         for (size_t s = 0; s < spectra.size() && choice.error <= eps; ++s) {
             choice.weights.push_back(choice.rule.weights(spectra[s]));
             if (!choice.rule.exact())

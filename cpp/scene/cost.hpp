@@ -16,7 +16,7 @@ inline double digits(double eps) {
 // A PSF that reaches `radius` native pixels, of light of a relative bandwidth (0: one colour).
 inline double psf(double radius, double eps, double bandwidth) {
     if (bandwidth > 0)
-        return digits(eps) * (6e-4 + 4.2e-6 * radius * radius * (1 + radius / 250));
+        return digits(eps) * (5e-4 + 3.3e-6 * radius * (radius + 45));
     const double per_area = radius <= 64 ? 2.7e-6 : 8.5e-6;
     return digits(eps) / 6 * (0.7e-3 + per_area * radius * radius);
 }
@@ -35,7 +35,7 @@ inline double shared_psf(double radius, double eps, double bandwidth, bool varie
     constexpr double falls = 2.3, nearest = 2.5; // native pixels
     double time = 0, reach = 20 * std::pow(falls, digits(eps) - 1);
     for (int fields = 2; reach > nearest; ++fields) {
-        time += 1.4 * fields * psf(std::min(radius, reach), eps, bandwidth);
+        time += 0.75 * fields * psf(std::min(radius, reach), eps, bandwidth);
         reach /= falls;
     }
     return time;

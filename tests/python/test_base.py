@@ -174,7 +174,7 @@ class Options(unittest.TestCase):
                  *_size.SIZE_OPTIONS, *_study.STUDY_OPTIONS, *_observation.OBSERVATION_OPTIONS,
                  *_scene.EXPOSURE_OPTIONS, *_scene.RENDER_OPTIONS, *_scene.TRUTH_OPTIONS,
                  *_scene.MAKE_OPTIONS, "kernel_negative", "kernel_normalise"}
-        self.assertEqual(taken, {*known, "zernikes", "opd", "progress"})
+        self.assertEqual(taken, {*known, "zernikes", "opd", "scene_store", "progress"})
 
     def test_values(self):
         instrument = wfpsf.Instrument()

@@ -11,7 +11,7 @@ taken = (Wfpsf.PSF_OPTIONS..., Wfpsf.STAR_OPTIONS..., Wfpsf.MOMENTS_OPTIONS..., 
          Wfpsf.CHAIN_OPTIONS..., Wfpsf.OBSERVATION_OPTIONS..., Wfpsf.EXPOSURE_OPTIONS...,
          Wfpsf.RENDER_OPTIONS..., Wfpsf.TRUTH_OPTIONS..., Wfpsf.MAKE_OPTIONS..., :kernel_negative,
          :kernel_normalise, :ipc_fill)
-@test issetequal(taken, (keys(known)..., :zernikes, :opd, :progress))
+@test issetequal(taken, (keys(known)..., :zernikes, :opd, :scene_store, :progress))
 
 instrument = Instrument()
 @test_throws ArgumentError PSF(instrument, 7, 1292; moments_tolerance = 1e-3)
