@@ -169,8 +169,9 @@ double FarLight::brightest_beyond(double r) const {
 }
 
 FarLight::Error FarLight::relative_error(double r) const {
-    constexpr double between_rims = 0.18, on_spikes = 0.35;
-    return {on_spikes * halo_.brightest(r) / brightest_beyond(r), between_rims};
+    constexpr double between_rims = 0.18, on_spikes = 0.35, far_off = 0.0075, far = 300;
+    const double own = far_off * std::min(1.0, r * r / (far * far));
+    return {on_spikes * halo_.brightest(r) / brightest_beyond(r) + own, between_rims, own};
 }
 
 std::vector<FarLight::Direction> FarLight::spikes(double r, double floor) const {

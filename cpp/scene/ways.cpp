@@ -184,7 +184,7 @@ void Ways::leave_far(const Way &way, double time_s, const Take &take) const {
 // where its own adds to that.
 double Ways::far_off(const SharedFarLight &far, const Way &way) const {
     const auto of_edges = [this](double r) {
-        return of_far(r) * colour_.far->error(r, group_.brightest, budget_.variance);
+        return colour_.far->error(r, group_.brightest, budget_.variance, of_far(r));
     };
     const auto of_light = [this](double share, double r) {
         const double brightest = colour_.far->brightest_beyond(r);
