@@ -80,22 +80,26 @@ class Best {
     Offer offer_;
 };
 
+// The core of a PSF, in its middle.
+Plane<double> core_of(const Optics &optics, const Light &light, const PsfSettings &settings) {
+    Plane<double> image(17, 17);
+    make_psfs(optics, {&light, 1}, settings)[0].draw({8, 8, 1}, 1, image.view());
+    return image;
+}
+
 // The largest change of a PSF's pixels from the middle of a region to its corners, as a share of
 // the light.
 double change_over(const Region &region, const SceneOptics &optics, const Light &light) {
     const PsfSettings settings = probe_settings(optics.settings);
-    constexpr int64_t size = 17;
     const auto at = [&](double x, double y) {
-        Plane<double> image(size, size);
-        make_psfs(optics.nearest(x, y), {&light, 1}, settings)[0].draw({8, 8, 1}, 1, image.view());
-        return image;
+        return core_of(optics.nearest(x, y), light, settings);
     };
     const Plane<double> middle = at((region.x0 + region.x1) / 2, (region.y0 + region.y1) / 2);
     double change = 0;
     for (const auto &[u, v] : {std::pair(region.x0, region.y0), std::pair(region.x1, region.y1)}) {
         const Plane<double> corner = at(u, v);
-        for (int64_t y = 0; y < size; ++y)
-            for (int64_t x = 0; x < size; ++x)
+        for (int64_t y = 0; y < middle.ny(); ++y)
+            for (int64_t x = 0; x < middle.nx(); ++x)
                 change = std::max(change, std::abs(middle(x, y) - corner(x, y)));
     }
     return change;
@@ -124,16 +128,14 @@ uint64_t key_of(const SceneOptics &optics, const Light &light, const SceneImage 
     PsfSettings settings = optics.settings;
     settings.eps = 1e-3;
     settings.radius = 8;
-    constexpr int64_t size = 17;
     for (const auto &[u, v] :
          {std::pair(0.5, 0.5), std::pair(0.1, 0.2), std::pair(0.9, 0.3), std::pair(0.3, 0.9)}) {
         const Optics here =
             optics.nearest(std::lerp(region.x0, region.x1, u), std::lerp(region.y0, region.y1, v));
-        Plane<double> image_there(size, size);
-        make_psfs(here, {&light, 1}, settings)[0].draw({8, 8, 1}, 1, image_there.view());
-        for (int64_t y = 0; y < size; ++y)
-            for (int64_t x = 0; x < size; ++x)
-                print.add(image_there(x, y));
+        const Plane<double> core = core_of(here, light, settings);
+        for (int64_t y = 0; y < core.ny(); ++y)
+            for (int64_t x = 0; x < core.nx(); ++x)
+                print.add(core(x, y));
     }
     return print.value();
 }
@@ -317,7 +319,7 @@ std::vector<SharedFarLight> ScenePlan::far_lights(int32_t colour) const {
 // would make it for each other.
 double ScenePlan::time_of(const SharedModel &model, int32_t colour) const {
     const KeptPsfs there = kept(colour);
-    if (there.psf && there.model.eps == model.eps && there.model.radius == model.radius)
+    if (there.serves(model))
         return 0;
     const ColourFacts &facts = this->colour(colour);
     const double time = cost::shared_psf(model.radius, model.eps, facts.bandwidth, facts.varies);

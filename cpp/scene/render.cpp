@@ -114,7 +114,7 @@ template <class T> class Renderer {
     std::shared_ptr<const VaryingPsf> model_of(int32_t colour) {
         const SharedModel &model = plan_.models()[static_cast<size_t>(colour)];
         for (const KeptPsfs &there : kept(colour))
-            if (there.psf && there.model.eps == model.eps && there.model.radius == model.radius)
+            if (there.serves(model))
                 return there.psf;
         auto made = std::make_shared<VaryingPsf>(
             optics_.at, optics_.varies, optics_.lights[static_cast<size_t>(colour)],

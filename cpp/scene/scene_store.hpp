@@ -20,6 +20,10 @@ struct KeptPsfs {
     std::shared_ptr<const VaryingPsf> psf = {};
     SharedFarLight far = {}; // what `tables` were made for
     std::shared_ptr<const FarTables> tables = {};
+
+    bool serves(const SharedModel &wanted) const {
+        return psf && model.eps == wanted.eps && model.radius == wanted.radius;
+    }
 };
 
 // Holds for every key what was kept last. Thread-safe.
