@@ -12,6 +12,8 @@ namespace wfpsf {
 
 namespace {
 
+constexpr double farthest = 8192; // native pixels
+
 // Rings by distance, native pixels.
 constexpr double rings_per_octave = 4;
 double ring(size_t j) {
@@ -28,13 +30,14 @@ EdgeFringes::EdgeFringes(const FarSource &source, const EdgeColours &colours,
                          const std::vector<Fringes> &tables)
     : visibility_(std::move(visibility)), pixel_(source.pixel()),
       scale_(1 / (2 * std::numbers::pi * std::numbers::pi * source.area())),
-      reach_(colours.reach()), per_across_(colours.per_across()) {
+      per_across_(colours.per_across()) {
     const double mean = 1 / source.mean_wavelength();
     for (const Fringes &table : tables) {
-        if (!(table.end() < fringes_end))
+        if (!(table.end() < farthest))
             continue;
         const auto [nx, ny] = table.axes();
-        Group group{table.axes(), table.end(), reach_, std::sqrt(3 * colours.variance(-ny, nx))};
+        Group group{table.axes(), table.end(), table.end(), 0,
+                    std::sqrt(3 * colours.variance(-ny, nx))};
         for (size_t i = 0; i < colours.edges().size(); ++i) {
             const EdgeColours::Edge &edge = colours.edges()[i];
             if (std::ranges::count(table.members(), edge.straight) == 0)
@@ -47,23 +50,21 @@ EdgeFringes::EdgeFringes(const FarSource &source, const EdgeColours &colours,
                     wave.re[m] *= scale;
                     wave.im[m] *= scale;
                 }
-            const double turned = std::abs(group.axes.across(edge.axes.nx, edge.axes.ny));
-            group.reach = std::max(group.reach, reach_ + turned * fringes_end);
             for (const Member &other : group.members) {
                 if (other.edge.straight == edge.straight)
                     continue;
-                constexpr double faint = 4e-3; // as a share of the edges' own light
-                const EdgeColours::Edge &b = other.edge;
-                const double apart = std::abs(group.axes.along(edge.x - b.x, edge.y - b.y));
-                double end = group.begin;
-                while (end < fringes_end && visibility_->most(apart * end * pixel_) > faint)
-                    end *= 1.1;
+                const double end = end_of(group, edge, other.edge);
+                group.end = std::max(group.end, end);
+                for (const EdgeColours::Edge *e : {&edge, &other.edge}) {
+                    const double turned = std::abs(group.axes.across(e->axes.nx, e->axes.ny));
+                    group.reach = std::max(group.reach, e->reach + turned * end);
+                }
                 group.pairs.push_back({static_cast<size_t>(&other - group.members.data()),
-                                       group.members.size(), std::min(end, fringes_end)});
+                                       group.members.size(), end});
             }
             group.members.push_back(std::move(member));
         }
-        for (size_t j = 0; ring(j) < fringes_end; ++j)
+        for (size_t j = 0; ring(j) < group.end; ++j)
             group.most.push_back(most(group, std::max(group.begin, ring(j))));
         group.most.push_back(0);
         for (size_t j = group.most.size() - 1; j-- > 0;)
@@ -72,11 +73,26 @@ EdgeFringes::EdgeFringes(const FarSource &source, const EdgeColours &colours,
     }
 }
 
+// Where the fringes of two edges are faint, or their light is apart.
+double EdgeFringes::end_of(const Group &group, const EdgeColours::Edge &a,
+                           const EdgeColours::Edge &b) const {
+    constexpr double faint = 4e-3; // as a share of the edges' own light
+    const double path = pixel_ * std::abs(group.axes.along(a.x - b.x, a.y - b.y));
+    const double turned = std::abs(a.axes.across(b.axes.nx, b.axes.ny));
+    const double last =
+        std::min({farthest, visibility_->longest_path() / path, (a.reach + b.reach) / turned});
+    double end = group.begin;
+    while (end < last && visibility_->most(path * end) > faint)
+        end *= 1.1;
+    return std::min(end, last);
+}
+
 // Without regard to phases.
 double EdgeFringes::most(const Group &group, double r) const {
     const auto amplitude = [&](const Member &member, double across) {
-        const auto at = static_cast<size_t>(std::lround((across + reach_) * per_across_)) + 2;
-        return within(across / reach_) * wfpsf::most({&member.waves[at], 1});
+        const double reach = member.edge.reach;
+        const auto at = static_cast<size_t>(std::lround((across + reach) * per_across_)) + 2;
+        return within(across / reach) * wfpsf::most({&member.waves[at], 1});
     };
     double most = 0;
     for (const double side : {-1.0, 1.0})
@@ -88,7 +104,7 @@ double EdgeFringes::most(const Group &group, double r) const {
             for (const Pair &pair : group.pairs) {
                 const Member &a = group.members[pair.first], &b = group.members[pair.second];
                 const double at_a = a.edge.axes.across(x, y), at_b = b.edge.axes.across(x, y);
-                if (r > pair.end || std::max(std::abs(at_a), std::abs(at_b)) > reach_)
+                if (r > pair.end || std::abs(at_a) > a.edge.reach || std::abs(at_b) > b.edge.reach)
                     continue;
                 const double path =
                     std::abs((a.edge.x - b.edge.x) * x + (a.edge.y - b.edge.y) * y) -
@@ -107,20 +123,20 @@ struct PairTable {
     const ColourWaves *waves_a, *waves_b; // one step before the position -reach
     const ColourWaves *visibility;
     double per_path, longest, middle;
-    double pixel, scale, reach, per_across;
+    double pixel, scale, per_across;
 };
 
 WFPSF_VECTORISED void add_pair(const PairTable &pair, double weight, double x0, double y, size_t n,
                                double *light) {
     const EdgeColours::Edge &a = pair.a, &b = pair.b;
-    const double last = 2 * pair.reach * pair.per_across;
+    const double last_a = 2 * a.reach * pair.per_across, last_b = 2 * b.reach * pair.per_across;
     for (size_t i = 0; i < n; ++i) {
         const double x = x0 + static_cast<double>(i), r2 = x * x + y * y;
         const double across_a = a.axes.across(x, y), across_b = b.axes.across(x, y);
         const double path = pair.pixel * ((a.x - b.x) * x + (a.y - b.y) * y);
         const double entry = std::min(std::abs(path) * pair.per_path, pair.longest);
-        const double column_a = std::clamp((across_a + pair.reach) * pair.per_across, 0.0, last);
-        const double column_b = std::clamp((across_b + pair.reach) * pair.per_across, 0.0, last);
+        const double column_a = std::clamp((across_a + a.reach) * pair.per_across, 0.0, last_a);
+        const double column_b = std::clamp((across_b + b.reach) * pair.per_across, 0.0, last_b);
         const auto cell = static_cast<int32_t>(entry);
         const auto left_a = static_cast<int32_t>(column_a), left_b = static_cast<int32_t>(column_b);
         const CubicWeights of_path(entry - cell), of_a(column_a - left_a), of_b(column_b - left_b);
@@ -139,7 +155,7 @@ WFPSF_VECTORISED void add_pair(const PairTable &pair, double weight, double x0, 
         double cosine, sine;
         phasor(path * pair.middle, cosine, sine);
         light[i] += weight * pair.scale * a.axes.along(x, y) * b.axes.along(x, y) / (r2 * r2) *
-                    within(across_a / pair.reach) * within(across_b / pair.reach) *
+                    within(across_a / a.reach) * within(across_b / b.reach) *
                     (sum_re * cosine - sum_im * sine);
     }
 }
@@ -158,16 +174,17 @@ void EdgeFringes::add(const PixelRow &row, double floor) const {
     for (const Group &group : groups_) {
         const auto faint = std::ranges::find_if(group.most, [&](double m) { return m <= floor; });
         const double end =
-            std::min(fringes_end, ring(static_cast<size_t>(faint - group.most.begin())));
+            std::min(group.end, ring(static_cast<size_t>(faint - group.most.begin())));
         for (const Run &run : runs_along(group.axes, row, group.reach, group.begin, end))
             for (const Pair &pair : group.pairs) {
                 const Member &a = group.members[pair.first], &b = group.members[pair.second];
-                const auto near = [&](Run of, const SpikeAxes &axes) {
-                    return between(of, axes.across(row.x, row.y), -axes.ny, -reach_, reach_);
+                const auto near = [&](Run of, const EdgeColours::Edge &edge) {
+                    return between(of, edge.axes.across(row.x, row.y), -edge.axes.ny, -edge.reach,
+                                   edge.reach);
                 };
                 const Run seen = between(run, group.axes.along(row.x, row.y), group.axes.nx,
                                          -pair.end, pair.end);
-                const Run both = near(near(seen, a.edge.axes), b.edge.axes);
+                const Run both = near(near(seen, a.edge), b.edge);
                 if (both.first > both.last)
                     continue;
                 const PixelRow part = row.part(both.first, both.last);
@@ -176,7 +193,7 @@ void EdgeFringes::add(const PixelRow &row, double floor) const {
                     const double aside = sample * group.aside;
                     add_pair({a.edge, b.edge, a.waves.data() + 1, b.waves.data() + 1,
                               visibility_->table(), visibility_->per_path(), visibility_->longest(),
-                              visibility_->middle(), pixel_, scale_, reach_, per_across_},
+                              visibility_->middle(), pixel_, scale_, per_across_},
                              sample == 0 ? 2.0 / 3 : 1.0 / 6, part.x - aside * group.axes.ny,
                              part.y + aside * group.axes.nx, part.light.size(), part.light.data());
                 }

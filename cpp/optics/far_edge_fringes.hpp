@@ -31,16 +31,18 @@ class EdgeFringes {
     };
     struct Group {
         SpikeAxes axes;
-        double begin, reach; // native pixels, along and across
-        double aside;        // of the samples that stand for a pixel across the spike
+        double begin, end; // native pixels, along
+        double reach;      // across
+        double aside;      // of the samples that stand for a pixel across the spike
         std::vector<Member> members = {};
         std::vector<Pair> pairs = {};
         std::vector<double> most = {}; // from each ring on
     };
+    double end_of(const Group &group, const EdgeColours::Edge &a, const EdgeColours::Edge &b) const;
     double most(const Group &group, double r) const;
 
     std::shared_ptr<const Visibility> visibility_;
-    double pixel_, scale_, reach_, per_across_;
+    double pixel_, scale_, per_across_;
     std::vector<Group> groups_;
 };
 

@@ -43,7 +43,7 @@ struct FarLight::Parts {
           visibility(std::make_shared<Visibility>(source, 1.1 * source.optics.aperture->diameter() *
                                                               fringes_end * source.pixel())),
           narrow(source, edges, *visibility, 6), middle(source, edges, *visibility, 9),
-          wide(source, edges, *visibility, 18) {}
+          wide(source, edges, *visibility, 22, 3.5) {}
     std::vector<RimPoint> rims;
     std::shared_ptr<const Visibility> visibility;
     EdgeColours narrow, middle, wide; // tables across
@@ -169,9 +169,8 @@ double FarLight::brightest_beyond(double r) const {
 }
 
 FarLight::Error FarLight::relative_error(double r) const {
-    constexpr double between_rims = 0.18, on_spikes = 0.35, far_off = 0.0075, far = 300;
-    const double own = far_off * std::min(1.0, r * r / (far * far));
-    return {on_spikes * halo_.brightest(r) / brightest_beyond(r) + own, between_rims, own};
+    constexpr double between_rims = 0.18, on_spikes = 0.35;
+    return {on_spikes * halo_.brightest(r) / brightest_beyond(r), between_rims};
 }
 
 std::vector<FarLight::Direction> FarLight::spikes(double r, double floor) const {

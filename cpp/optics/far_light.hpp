@@ -52,11 +52,10 @@ class FarLight {
     // The largest error of pixels at r or farther: near the spikes' lines as a share of
     // brightest_beyond(r), elsewhere of halo_beyond(r). Fringes between rims, of which the halo has
     // the mean only. Fitted to the worst of all pixels at 24..256 off Roman's pupil and WFIRST's,
-    // in bands of 2.5 to 18 fringes at the nearest; by then the rms is a quarter or less. Of that
-    // of spikes `own` is what does not come from the halo, and matters from 200 on: fitted to the
-    // worst out to 500 of Roman's in J129 and H158.
+    // in bands of 2.5 to 18 fringes at the nearest; by then the rms is a quarter or less. Half that
+    // at 100..700 off Roman's.
     struct Error {
-        double spikes, halo, own;
+        double spikes, halo;
     };
     Error relative_error(double r) const;
 

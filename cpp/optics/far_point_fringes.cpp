@@ -38,8 +38,7 @@ PointFringes<Point>::PointFringes(const FarSource &source, const EdgeColours &co
                                   std::vector<Point> points, const Known &known)
     : points_(std::move(points)), visibility_(std::move(visibility)), nearest_(source.nearest),
       wavelength_(source.mean_wavelength()), pixel_(source.pixel()),
-      scale_(1 / (2 * pi * pi * source.area())), reach_(colours.reach()),
-      per_across_(colours.per_across()) {
+      scale_(1 / (2 * pi * pi * source.area())), per_across_(colours.per_across()) {
     for (size_t j = 0; ring(nearest_, j) < fringes_end; ++j)
         rings_.push_back(ring(nearest_, j));
     rings_.push_back(fringes_end);
@@ -79,12 +78,12 @@ typename PointFringes<Point>::Edge PointFringes<Point>::edge(const EdgeColours &
 template <class Point>
 double PointFringes<Point>::most(const EdgeColours::Edge &edge, size_t p, size_t side,
                                  double r) const {
-    const auto &[axes, x, y, length, straight] = edge;
+    const auto &[axes, x, y, length, straight, reach] = edge;
     const double way = side == 0 ? 1 : -1, ux = way * axes.nx, uy = way * axes.ny;
     const Point &point = points_[p];
     const double path = std::abs(way * axes.along(x, y) - point.place(ux, uy)) * r -
-                        length * reach_; // to the spike's sides
-    return scale_ * point.most(ux, uy, r, reach_) * visibility_->most(path * pixel_) /
+                        length * reach; // to the spike's sides
+    return scale_ * point.most(ux, uy, r, reach) * visibility_->most(path * pixel_) /
            (r * r * std::sqrt(r * pixel_ / wavelength_));
 }
 
@@ -98,7 +97,7 @@ template <class Point> struct PairTable {
     const Point &point;
     const ColourWaves *visibility;
     double per_path, longest, middle;
-    double wavelength, pixel, scale, reach, per_across;
+    double wavelength, pixel, scale, per_across;
 };
 
 template <class Point>
@@ -124,12 +123,12 @@ WFPSF_VECTORISED void add_pair(const PairTable<Point> &pair, double x0, double y
                 pair.pixel * (pair.edge.x * x + pair.edge.y * y - pair.point.place(x, y)) -
                 sent.waves[i] * pair.wavelength;
             entry[i] = std::min(std::abs(path) * pair.per_path, pair.longest);
-            column[i] = (across + pair.reach) * pair.per_across;
+            column[i] = (across + pair.edge.reach) * pair.per_across;
             side[i] = std::copysign(1.0, path);
             double cosine, sine;
             phasor(path * pair.middle, cosine, sine);
             const double factor =
-                pair.scale * along / (r * r * r * std::sqrt(r)) * within(across / pair.reach);
+                pair.scale * along / (r * r * r * std::sqrt(r)) * within(across / pair.edge.reach);
             re[i] = factor * (sent.re[i] * cosine + sent.im[i] * sine);
             im[i] = factor * (sent.im[i] * cosine - sent.re[i] * sine);
         }
@@ -174,7 +173,7 @@ double PointFringes<Point>::brightest(double r, const SpikeAxes &spike) const {
 template <class Point> void PointFringes<Point>::add(const PixelRow &row, double floor) const {
     for (const Edge &edge : edges_) {
         const SpikeAxes &axes = edge.edge.axes;
-        for (const Run &run : runs_along(axes, row, reach_, nearest_, fringes_end)) {
+        for (const Run &run : runs_along(axes, row, edge.edge.reach, nearest_, fringes_end)) {
             const double here = axes.along(row.x, row.y);
             const double first = here + axes.nx * static_cast<double>(run.first);
             const double last = here + axes.nx * static_cast<double>(run.last);
@@ -192,7 +191,7 @@ template <class Point> void PointFringes<Point>::add(const PixelRow &row, double
                 add_pair<Point>({edge.edge, edge.waves[pair.waves].data() + 1, points_[pair.point],
                                  visibility_->table(), visibility_->per_path(),
                                  visibility_->longest(), visibility_->middle(), wavelength_, pixel_,
-                                 scale_ / std::sqrt(pixel_ / wavelength_), reach_, per_across_},
+                                 scale_ / std::sqrt(pixel_ / wavelength_), per_across_},
                                 part.x, part.y, part.light.size(), part.light.data());
             }
         }

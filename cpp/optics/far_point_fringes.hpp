@@ -48,7 +48,7 @@ template <class Point> class PointFringes {
     std::vector<Point> points_;
     std::shared_ptr<const Visibility> visibility_;
     std::vector<double> rings_; // distances, native pixels
-    double nearest_, wavelength_, pixel_, scale_, reach_, per_across_;
+    double nearest_, wavelength_, pixel_, scale_, per_across_;
     std::vector<Edge> edges_;
 };
 

@@ -81,7 +81,7 @@ inline constexpr double same_direction = 0.25;
 // edge's spike.
 inline constexpr double widest_kink = 0.2;
 
-// No fringes from there on, native pixels.
+// No fringes with rims and corners from there on, native pixels.
 inline constexpr double fringes_end = 640;
 
 // The light of one edge by itself, within 45 degrees of the spike; what is left is no spike.

@@ -135,9 +135,8 @@ double Visibility::most(double path) const {
 }
 
 EdgeColours::EdgeColours(const FarSource &source, const PupilEdges &edges,
-                         const Visibility &visibility, double reach)
+                         const Visibility &visibility, double reach, double widest)
     : per_across_(2 * std::max(1.0, source.bandwidth())) {
-    reach_ = std::ceil(reach * per_across_) / per_across_;
     const auto &[xx, xy, yy] = source.settings.blur;
     response_ = {{xx, source.settings.mirrored ? -xy : xy, yy},
                  source.settings.pixel_response ? 1.0 : 0.0,
@@ -145,10 +144,15 @@ EdgeColours::EdgeColours(const FarSource &source, const PupilEdges &edges,
     for (size_t m = 0; m < far_colours; ++m)
         response_.cycles[m] = source.pixel() * visibility.wavenumbers()[m];
     constexpr double most_turns = 3.2; // that the ends of a piece may differ by
-    const double turns = reach_ * (response_.cycles.back() - response_.cycles.front());
+    double longest = 0;
+    for (const auto &[x, y, to_x, to_y] : edges.straight)
+        longest = std::max(longest, std::hypot(to_x - x, to_y - y));
     for (size_t i = 0; i < edges.straight.size(); ++i) {
         const auto &[x, y, to_x, to_y] = edges.straight[i];
         const double length = std::hypot(to_x - x, to_y - y);
+        const double far =
+            std::ceil(reach * std::min(longest / length, widest) * per_across_) / per_across_;
+        const double turns = far * (response_.cycles.back() - response_.cycles.front());
         const int pieces = std::max(1, static_cast<int>(std::ceil(length * turns / most_turns)));
         for (int p = 0; p < pieces; ++p) {
             const double middle = (p + 0.5) / pieces;
@@ -156,7 +160,8 @@ EdgeColours::EdgeColours(const FarSource &source, const PupilEdges &edges,
                               x + middle * (to_x - x),
                               y + middle * (to_y - y),
                               length / pieces,
-                              i});
+                              i,
+                              far});
             nodes_.push_back(nodes(source, visibility.wavenumbers(), edges_.back()));
         }
     }
@@ -166,7 +171,7 @@ std::vector<EdgeColours::Node> EdgeColours::nodes(const FarSource &source,
                                                   const std::array<double, far_colours> &wavenumber,
                                                   const Edge &edge) const {
     const GaussLegendre rule(
-        8 + gauss_legendre_points(pi * response_.cycles.back() * reach_ * edge.length, 1e-4));
+        8 + gauss_legendre_points(pi * response_.cycles.back() * edge.reach * edge.length, 1e-4));
     std::vector<Node> out(rule.x.size());
     for (size_t i = 0; i < out.size(); ++i) {
         const double s = rule.x[i] * edge.length / 2; // across the spike
@@ -177,7 +182,7 @@ std::vector<EdgeColours::Node> EdgeColours::nodes(const FarSource &source,
         const double path = source.optics.wavelength * source.optics.wavefront(node.x, node.y);
         for (size_t m = 0; m < far_colours; ++m) {
             const double turn = response_.cycles[m] * s;
-            phasor(path * wavenumber[m] - (reach_ + 2 / per_across_) * turn, node.wave.re[m],
+            phasor(path * wavenumber[m] - (edge.reach + 2 / per_across_) * turn, node.wave.re[m],
                    node.wave.im[m]);
             phasor(turn / per_across_, node.step.re[m], node.step.im[m]);
         }
@@ -190,20 +195,20 @@ double EdgeColours::variance(double ux, double uy) const {
     return response_.width / 12 + xx * ux * ux + 2 * xy * ux * uy + yy * uy * uy;
 }
 
-std::vector<ColourWaves> EdgeColours::table(std::vector<Node> nodes) const {
-    std::vector<ColourWaves> out(2 * static_cast<size_t>(std::lround(reach_ * per_across_)) + 5);
+std::vector<ColourWaves> EdgeColours::table(std::vector<Node> nodes, double reach) const {
+    std::vector<ColourWaves> out(2 * static_cast<size_t>(std::lround(reach * per_across_)) + 5);
     add_nodes(nodes, out);
     return out;
 }
 
 std::vector<ColourWaves> EdgeColours::waves(size_t edge) const {
-    return table(nodes_[edge]);
+    return table(nodes_[edge], edges_[edge].reach);
 }
 
 std::vector<ColourWaves> EdgeColours::waves(size_t edge, double x, double y) const {
     std::vector<Node> nodes = nodes_[edge];
     respond(response_, x, y, nodes);
-    return table(std::move(nodes));
+    return table(std::move(nodes), edges_[edge].reach);
 }
 
 double most(std::span<const ColourWaves> waves) {

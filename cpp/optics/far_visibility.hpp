@@ -60,6 +60,7 @@ class Visibility {
     double middle() const { return middle_; } // wavenumber of the wave that the table leaves out
     double per_path() const { return per_path_; }
     double longest() const { return static_cast<double>(table_.size()) - 4.001; } // entries
+    double longest_path() const { return longest() / per_path_; }
     const ColourWaves *table() const { return table_.data(); } // from one entry before no path
     // Of all colours together; no longer path has more.
     double most(double path) const;
@@ -79,17 +80,18 @@ class EdgeColours {
         SpikeAxes axes;
         double x, y, length; // middle, m
         size_t straight;     // that it is part of
+        double reach;        // across, native pixels
     };
 
-    // `reach`: across, native pixels.
+    // `reach`: across, native pixels, of the longest edge. Short ones send their light wider: theirs
+    // is up to `widest` times that.
     EdgeColours(const FarSource &source, const PupilEdges &edges, const Visibility &visibility,
-                double reach);
+                double reach, double widest = 1);
 
     const std::vector<Edge> &edges() const { return edges_; }
-    double reach() const { return reach_; } // across, native pixels
     double per_across() const { return per_across_; }
 
-    // From two steps before -reach on; times the pixel's and the blur's response to fringes with
+    // From two steps before the edge's -reach on; times the pixel's and the blur's response to fringes with
     // light from (x, y).
     std::vector<ColourWaves> waves(size_t edge) const;
     std::vector<ColourWaves> waves(size_t edge, double x, double y) const;
@@ -112,12 +114,12 @@ class EdgeColours {
     std::vector<Node> nodes(const FarSource &source,
                             const std::array<double, far_colours> &wavenumber,
                             const Edge &edge) const;
-    std::vector<ColourWaves> table(std::vector<Node> nodes) const;
+    std::vector<ColourWaves> table(std::vector<Node> nodes, double reach) const;
 
     Response response_;
     std::vector<Edge> edges_;
     std::vector<std::vector<Node>> nodes_; // by edge
-    double per_across_, reach_ = 0;
+    double per_across_;
 };
 
 // The largest of all.

@@ -56,10 +56,9 @@ FarReach::FarReach(const FarLight &light, double brightest) : nearest_(light.nea
     double r = nearest_;
     while (r < farthest) {
         const double bound = light.brightest_beyond(r);
-        const FarLight::Error off = light.relative_error(r);
-        rings_.push_back({brightest * bound,
-                          std::max(off.spikes * bound, off.halo * light.halo_beyond(r)),
-                          off.own * bound});
+        rings_.push_back(
+            {brightest * bound, std::max(light.relative_error(r).spikes * bound,
+                                         light.relative_error(r).halo * light.halo_beyond(r))});
         r *= std::exp2(1 / rings_per_octave);
     }
 }
@@ -80,9 +79,9 @@ double FarReach::radius(double floor) const {
     return farthest;
 }
 
-double FarReach::error(double radius, double flux, double variance, double found) const {
+double FarReach::error(double radius, double flux, double variance) const {
     const Ring &at = ring(radius);
-    return std::lerp(at.own, at.error, found) / std::sqrt(1 + flux * at.brightest / variance);
+    return at.error / std::sqrt(1 + flux * at.brightest / variance);
 }
 
 } // namespace wfpsf

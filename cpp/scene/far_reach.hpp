@@ -28,8 +28,7 @@ class FarReach {
 
     // The largest error of a pixel beyond a radius, as a share of the star's light: what the far
     // light is off there, in units of the noise where pixels without the star have `variance`.
-    // `found` of what spikes and halo are off together is what tests find.
-    double error(double radius, double flux, double variance, double found = 1) const;
+    double error(double radius, double flux, double variance) const;
     double brightest_beyond(double radius) const;
     double nearest() const { return nearest_; }
     // From where on all pixels get less than a floor, one of the steps'.
@@ -39,7 +38,7 @@ class FarReach {
     double nearest_;
     std::vector<Step> steps_;
     struct Ring {
-        double brightest, error, own; // of the latter what spikes are off by themselves
+        double brightest, error;
     };
     const Ring &ring(double radius) const;
     std::vector<Ring> rings_; // at nearest * 2^(i/16)

@@ -17,13 +17,13 @@ constexpr double negligible = 0.01;
 
 // What PSFs are off is no larger than that, of what they may be (tests/unit/optics): exact ones at
 // the core and far from it, those of the whole detector anywhere; and what these lack where parts are
-// left out. Then far light from the pupil's edges.
+// left out. Then far light from the pupil's edges: of Roman's eight bands, at five detectors each.
 constexpr double of_exact = 0.05, of_exact_far_off = 0.015, of_left_out = 0.3;
 double of_model(double eps) {
     return eps > 5e-4 ? 0.2 : 0.1;
 }
 double of_far(double radius) {
-    return std::min(0.8, 50 / radius);
+    return std::clamp(40 / radius, 0.45, 0.65);
 }
 
 // Tables of far light are that share of the light off, and more, the more it differs from place to
@@ -184,7 +184,7 @@ void Ways::leave_far(const Way &way, double time_s, const Take &take) const {
 // where its own adds to that.
 double Ways::far_off(const SharedFarLight &far, const Way &way) const {
     const auto of_edges = [this](double r) {
-        return colour_.far->error(r, group_.brightest, budget_.variance, of_far(r));
+        return of_far(r) * colour_.far->error(r, group_.brightest, budget_.variance);
     };
     const auto of_light = [this](double share, double r) {
         const double brightest = colour_.far->brightest_beyond(r);

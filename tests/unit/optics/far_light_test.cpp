@@ -78,34 +78,39 @@ struct Patch {
     double sum, bright; // largest error of the sum, and rms error of the bright pixels
 };
 
+constexpr int64_t half = 8; // of a patch
+
+void expect_like(const Plane<double> &truth, const FarLight &far, const Patch &patch) {
+    const auto &[x, y, most_sum, most_bright] = patch;
+    double peak = 0, sum = 0, off = 0;
+    for (int64_t j = 0; j <= 2 * half; ++j)
+        for (int64_t i = 0; i <= 2 * half; ++i) {
+            peak = std::max(peak, truth(i, j));
+            sum += truth(i, j);
+            off += far.at(static_cast<double>(x + i - half), static_cast<double>(y + j - half)) -
+                   truth(i, j);
+        }
+    double squares = 0, count = 0;
+    for (int64_t j = 0; j <= 2 * half; ++j)
+        for (int64_t i = 0; i <= 2 * half; ++i)
+            if (truth(i, j) > 0.3 * peak) {
+                const double light =
+                    far.at(static_cast<double>(x + i - half), static_cast<double>(y + j - half));
+                squares += std::pow(light / truth(i, j) - 1, 2);
+                ++count;
+            }
+    EXPECT_LT(std::abs(off / sum), most_sum) << x;
+    EXPECT_LT(std::sqrt(squares / count), most_bright) << x;
+}
+
 void expect_like_the_engine(const TiltedStar &scene, const std::vector<Patch> &patches) {
     const FarLight far(scene.optics(), scene.light, settings());
-    for (const auto &[x, y, most_sum, most_bright] : patches) {
-        const auto there = scene.optics(static_cast<double>(x), static_cast<double>(y));
+    for (const Patch &patch : patches) {
+        const auto there = scene.optics(static_cast<double>(patch.x), static_cast<double>(patch.y));
         const Psf psf = std::move(make_psfs(there, {&scene.light, 1}, settings())[0]);
-        constexpr int64_t half = 8;
         Plane<double> truth(2 * half + 1, 2 * half + 1);
         psf.draw({half, half, 1}, 1, truth.view());
-        double peak = 0, sum = 0, off = 0;
-        for (int64_t j = 0; j <= 2 * half; ++j)
-            for (int64_t i = 0; i <= 2 * half; ++i) {
-                peak = std::max(peak, truth(i, j));
-                sum += truth(i, j);
-                off +=
-                    far.at(static_cast<double>(x + i - half), static_cast<double>(y + j - half)) -
-                    truth(i, j);
-            }
-        double squares = 0, count = 0;
-        for (int64_t j = 0; j <= 2 * half; ++j)
-            for (int64_t i = 0; i <= 2 * half; ++i)
-                if (truth(i, j) > 0.3 * peak) {
-                    const double light = far.at(static_cast<double>(x + i - half),
-                                                static_cast<double>(y + j - half));
-                    squares += std::pow(light / truth(i, j) - 1, 2);
-                    ++count;
-                }
-        EXPECT_LT(std::abs(off / sum), most_sum) << x;
-        EXPECT_LT(std::sqrt(squares / count), most_bright) << x;
+        expect_like(truth, far, patch);
     }
 }
 
@@ -157,6 +162,19 @@ TEST(FarLight, HasTheErrorsThatItEstimates) {
 
 TEST(FarLight, IsThatOfTheExactEngineForRoman) {
     expect_like_the_engine({"roman-c9", "J129"}, {{62, 15, 0.002, 0.02}, {124, 31, 0.002, 0.004}});
+}
+
+// There the strut's short end beside it is seen 20 pixels off its own spike: it took 5 % of the light.
+TEST(FarLight, IsThatOfTheExactEngineBeyondTheTablesOfSpikes) {
+    const TiltedStar scene("roman-c9", "J129");
+    const Patch patch{356, 87, 0.003, 0.006};
+    const auto x = static_cast<double>(patch.x), y = static_cast<double>(patch.y);
+    const Psf psf =
+        std::move(make_psfs(scene.optics(), {&scene.light, 1}, settings(1e-9, x + half + 1))[0]);
+    Plane<double> truth(2 * half + 1, 2 * half + 1);
+    const Star star{half - x, half - y, 1};
+    psf.add(std::span(&star, 1), 1, truth.view(), 1);
+    expect_like(truth, FarLight(scene.optics(), scene.light, settings()), patch);
 }
 
 TEST(FarLight, IsThatOfTheExactEngineForTaperedStrutsAndRoundedCorners) {
