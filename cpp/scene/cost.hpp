@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What drawing takes, in seconds of one thread: measured on one kind of machine (docs/scene.md),
-// good to a factor of two there. Plans compare ways with each other; only ratios matter to the choice.
+// What drawing takes, in seconds of one thread and in bytes: measured on one kind of machine
+// (docs/scene.md), good to a factor of two there. Plans compare ways with each other; only ratios
+// matter to the choice.
 #pragma once
 
 #include <algorithm>
@@ -12,13 +13,23 @@ namespace wfpsf::cost {
 inline double digits(double eps) {
     return std::max(1.0, -std::log10(eps));
 }
+// As PSFs' cost goes: 1 a digit at 7 digits.
+inline double costly_digits(double eps) {
+    return 7 * std::pow(digits(eps) / 7, 1.7);
+}
 
 // A PSF that reaches `radius` native pixels, of light of a relative bandwidth (0: one colour).
 inline double psf(double radius, double eps, double bandwidth) {
     if (bandwidth > 0)
-        return digits(eps) * (5e-4 + 3.3e-6 * radius * (radius + 45));
+        return costly_digits(eps) * (5e-4 + 3.3e-6 * radius * (radius + 45));
     const double per_area = radius <= 64 ? 2.7e-6 : 8.5e-6;
     return digits(eps) / 6 * (0.7e-3 + per_area * radius * radius);
+}
+
+inline double psf_memory(double radius, double eps, double bandwidth) {
+    constexpr double least = 3e6;
+    return least +
+           (bandwidth > 0 ? 1000 * digits(eps) * radius * (radius + 45) : 1400 * radius * radius);
 }
 
 // A stamp of `pixels` pixels straight from the diffraction image, beyond the radius made before.
@@ -39,6 +50,11 @@ inline double shared_psf(double radius, double eps, double bandwidth, bool varie
         reach /= falls;
     }
     return time;
+}
+
+inline double shared_psf_memory(double radius, double eps, double bandwidth, bool varies) {
+    const double terms = std::max(1.0, 8 * digits(eps) - 8);
+    return varies ? 500 * terms * std::pow(radius + 12, 2) : psf_memory(radius, eps, bandwidth);
 }
 
 // A star's stamp of width^2 pixels from a field made to `eps`, of so many native pixels' radius.
@@ -68,10 +84,15 @@ inline double far_blocks(double pixels) {
 }
 
 // What they are made from.
-constexpr double making_far_light = 0.06;
+constexpr double making_far_light = 0.06, far_light_memory = 4e6;
 inline double far_tables(double radius, bool varies) {
     const double native = 4 * radius * radius;
-    return varies ? 9 * making_far_light + 1e-6 * native : making_far_light + 5e-7 * native;
+    return varies ? 9 * making_far_light + 1.5e-6 * native : making_far_light + 5e-7 * native;
+}
+
+// While they are made.
+inline double far_tables_memory(double radius, bool varies) {
+    return (varies ? 9 : 1) * (far_light_memory + 160 * radius * radius);
 }
 
 // What galaxies are drawn with.

@@ -41,12 +41,12 @@ void to_coefficients(std::vector<SampledLight> &light) {
 } // namespace
 
 LightBlocks far_differences(std::span<const FarLight> at_places, const MiddleLight &middle,
-                            double radius) {
+                            double radius, double floor) {
     if (at_places.size() == 1 || radius <= middle.inner)
         return LightBlocks({});
     using Which = SampledLight::Which;
     const auto fill = [&](size_t place, SampledLight &to, const SampleRange &range, Which which) {
-        to.add(at_places[place], at_places[place].nearest(), middle.floor / less, range, which);
+        to.add(at_places[place], at_places[place].nearest(), floor / less, range, which);
     };
     std::vector<SampledLight> one(places, SampledLight(1, half_width(radius)));
     for (size_t k = 0; k < places; ++k)
@@ -94,7 +94,7 @@ LightBlocks far_differences(std::span<const FarLight> at_places, const MiddleLig
         LightBlocks::Block block_of{of.x, of.y, middle.inner, {}};
         for (size_t k = 1; k < places; ++k) {
             const double most = one[k].largest(of.samples(1), middle.inner);
-            if (most > middle.floor)
+            if (most > floor)
                 block_of.parts.push_back({k - 1, most, &(needs_two ? of_two : of_one)[k - 1]});
         }
         if (!block_of.parts.empty())

@@ -17,8 +17,8 @@ namespace wfpsf {
 inline constexpr std::array<std::pair<int, int>, 9> order_of_places{
     {{1, 1}, {0, 1}, {2, 1}, {1, 0}, {1, 2}, {0, 0}, {2, 0}, {0, 2}, {2, 2}}};
 
-// The coefficients out to a radius, where they are above the middle's floor.
+// The coefficients out to a radius, where they are above a floor.
 LightBlocks far_differences(std::span<const FarLight> at_places, const MiddleLight &middle,
-                            double radius);
+                            double radius, double floor);
 
 } // namespace wfpsf

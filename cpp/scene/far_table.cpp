@@ -73,13 +73,14 @@ std::vector<std::pair<double, double>> FarTables::places(const Region &image, bo
 
 FarTables::FarTables(std::span<const FarLight> at_places, const Psf *exact, const Region &image,
                      const Extent &extent)
-    : FarTables(at_places, image, extent.differences_radius,
+    : FarTables(at_places, image, extent,
                 MiddleLight(at_places[0], exact, extent.radius, extent.floor)) {}
 
-FarTables::FarTables(std::span<const FarLight> at_places, const Region &image,
-                     double differences_radius, const MiddleLight &middle)
-    : image_(image), differences_radius_(differences_radius), middle_(middle),
-      differences_(far_differences(at_places, middle, differences_radius)) {}
+FarTables::FarTables(std::span<const FarLight> at_places, const Region &image, const Extent &extent,
+                     const MiddleLight &middle)
+    : image_(image), differences_radius_(extent.differences_radius), middle_(middle),
+      differences_(far_differences(at_places, middle, extent.differences_radius,
+                                   extent.differences_floor)) {}
 
 template <class T>
 void FarTables::add(const Star &star, double x, double y, double inner, double floor, View<T> image,

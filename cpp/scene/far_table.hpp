@@ -53,9 +53,9 @@ class FarTables {
     static std::vector<std::pair<double, double>> places(const Region &image, bool varies);
 
     struct Extent {
-        double radius;             // where the tables end, native pixels
-        double differences_radius; // those of the differences
-        double floor;              // share of the light: what gets less may be missing
+        double radius; // where the tables end, native pixels
+        double floor;  // share of the light: what gets less may be missing
+        double differences_radius, differences_floor; // of what stars get by their places
     };
     // `exact`, if there is one, is the PSF of the first place, and stands for its far light as far
     // as it reaches: from the pupil's edges then come the differences alone.
@@ -72,7 +72,7 @@ class FarTables {
     int64_t memory() const { return middle_.memory() + differences_.memory(); } // bytes held
 
   private:
-    FarTables(std::span<const FarLight> at_places, const Region &image, double differences_radius,
+    FarTables(std::span<const FarLight> at_places, const Region &image, const Extent &extent,
               const MiddleLight &middle);
 
     Region image_;

@@ -105,12 +105,6 @@ double change_over(const Region &region, const SceneOptics &optics, const Light 
     return change;
 }
 
-// What exact far light is made to, so that the brightest stars are off by a small part of the budget.
-double exact_far_eps(double brightest, const ColourFacts &facts, const SceneBudget &budget) {
-    const double eps = 0.5 * budget.error() / (facts.profile.peak() * brightest);
-    return std::clamp(eps, 1e-10, 1e-4);
-}
-
 // A change of the PSF adds no light: galaxies wider than it blur it away, but for the cusps of high
 // indices. The smallest of the group is half as wide as the largest.
 double after_blur(const SourceGroup &group) {
@@ -480,26 +474,29 @@ void ScenePlan::choose() {
     settle(std::pow(10.0, high));
 }
 
-// The sources; a batch of stars; models and tables; a PSF drawn by itself.
+// The sources and the stars made of them; models and tables; a PSF drawn by itself.
 int64_t ScenePlan::memory() const {
-    constexpr double samples = 8 * 16; // bytes of a native pixel's samples
-    constexpr double making = 2800;    // and while a PSF is made of many colours
-    const auto area = [](double radius) { return 4 * radius * radius; };
-    const double held = static_cast<double>(sources_.size() * sizeof(PlacedSource)) + 12e6;
-    double shared = 0, alone = 0;
-    for (const SharedModel &model : models_)
-        if (model.needed)
-            shared += 12 * samples * area(model.radius);
-    for (const SharedFarLight &far : far_)
-        if (far.needed) {
-            shared += samples * area(far.radius);
-            alone = std::max(alone, making * area(far.exact_radius));
+    constexpr double of_star = sizeof(Star) + sizeof(StarDetail), batches = 3e7;
+    double held = static_cast<double>(sources_.size()) * (sizeof(PlacedSource) + of_star) + batches;
+    double alone = 0;
+    const auto add_alone = [&](double radius, double eps, const ColourFacts &facts) {
+        alone = std::max(alone, cost::psf_memory(radius, eps, facts.bandwidth));
+    };
+    for (size_t c = 0; c < colours_.size(); ++c) {
+        const ColourFacts &facts = colour(static_cast<int32_t>(c));
+        if (const SharedModel &model = models_[c]; model.needed)
+            held += cost::shared_psf_memory(model.radius, model.eps, facts.bandwidth, facts.varies);
+        if (const SharedFarLight &far = far_[c]; far.needed) {
+            held += cost::far_tables_memory(far.radius, facts.varies);
+            if (far.exact_radius > 0)
+                add_alone(far.exact_radius, far.exact_eps, facts);
         }
+    }
     for (const PlannedGroup &planned : planned_)
         if (planned.way.drawing == Drawing::own)
-            alone =
-                std::max(alone, making * area(std::min(planned.way.radius, Way::largest_field)));
-    return static_cast<int64_t>(held + shared + alone);
+            add_alone(std::min(planned.way.radius, Way::largest_field), planned.way.eps,
+                      colour(planned.group.colour));
+    return static_cast<int64_t>(held + alone);
 }
 
 std::string ScenePlan::text() const {

@@ -125,31 +125,37 @@ template <class T> class Renderer {
         return made;
     }
 
-    std::shared_ptr<const FarTables> tables_of(int32_t colour) {
+    // What stars ask of tables, if all were that much brighter.
+    SharedFarLight asked_of_tables(int32_t colour, double brighter) const {
         SharedFarLight far = plan_.far()[static_cast<size_t>(colour)];
-        const ColourFacts &facts = plan_.colour(colour);
-        double floor = INFINITY, brightest = 0;
+        double floor = INFINITY, differences_floor = INFINITY, brightest = 0;
         for (const PlannedGroup &g : plan_.groups())
             if (g.group.colour == colour && g.way.far > 0) {
                 floor = std::min(floor, g.way.far);
-                if (g.way.far_drawing != FarDrawing::own)
+                if (g.way.far_drawing != FarDrawing::own) {
+                    differences_floor = std::min(differences_floor, g.way.far);
                     brightest = std::max(brightest, g.group.brightest);
+                }
             }
-        if (!far.needed || !std::isfinite(floor))
+        far.needed = far.needed && std::isfinite(floor);
+        far.floor = floor / brighter;
+        far.differences_floor = differences_floor / brighter;
+        far.differences_radius =
+            brightest > 0 ? std::min(far.radius, same_beyond(plan_.colour(colour),
+                                                             brighter * brightest, plan_.budget()))
+                          : 0;
+        return far;
+    }
+
+    std::shared_ptr<const FarTables> tables_of(int32_t colour) {
+        const SharedFarLight asked = asked_of_tables(colour, 1);
+        if (!asked.needed)
             return {};
-        const auto differences_radius = [&](double flux) {
-            return std::min(far.radius, same_beyond(facts, flux, plan_.budget()));
-        };
         for (const KeptPsfs &there : kept(colour))
-            if (there.tables && there.far.exact_radius == far.exact_radius &&
-                there.far.exact_eps <= far.exact_eps && there.far.radius == far.radius &&
-                there.far.floor <= floor &&
-                there.far.differences_radius >= differences_radius(brightest))
+            if (there.serves(asked))
                 return there.tables;
         // Of the next scenes stars may be brighter.
-        const double room = plan_.reuse().store ? 4 : 1;
-        far.floor = floor / room;
-        far.differences_radius = differences_radius(room * brightest);
+        const SharedFarLight far = asked_of_tables(colour, plan_.reuse().store ? 4 : 1);
         std::optional<Psf> exact;
         if (far.exact_radius > 0) {
             const auto [x, y] = FarTables::places(plan_.region(), false)[0];
@@ -160,8 +166,9 @@ template <class T> class Renderer {
         }
         constexpr double below = 0.1; // light that sums of it must not count
         auto made = std::make_shared<FarTables>(
-            facts.far_lights, exact ? &*exact : nullptr, plan_.region(),
-            FarTables::Extent{far.radius, far.differences_radius, below * far.floor});
+            plan_.colour(colour).far_lights, exact ? &*exact : nullptr, plan_.region(),
+            FarTables::Extent{far.radius, below * far.floor, far.differences_radius,
+                              below * far.differences_floor});
         keep(colour, {.far = far, .tables = made});
         return made;
     }

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/scene_store.hpp"
 
+#include "scene/cost.hpp"
+
 namespace wfpsf {
-
-namespace {
-
-constexpr int64_t memory_of_far_light = 4000000; // bytes, about
-
-} // namespace
 
 KeptPsfs SceneStore::find(uint64_t key) const {
     const std::lock_guard lock(mutex_);
@@ -32,16 +28,16 @@ void SceneStore::keep(uint64_t key, const KeptPsfs &made) {
 
 int64_t SceneStore::memory() const {
     const std::lock_guard lock(mutex_);
-    int64_t bytes = 0;
+    double bytes = 0;
     for (const auto &[key, kept] : kept_) {
         if (kept.facts)
-            bytes += static_cast<int64_t>(kept.facts->far_lights.size()) * memory_of_far_light;
+            bytes += static_cast<double>(kept.facts->far_lights.size()) * cost::far_light_memory;
         if (kept.psf)
-            bytes += kept.psf->memory();
+            bytes += static_cast<double>(kept.psf->memory());
         if (kept.tables)
-            bytes += kept.tables->memory();
+            bytes += static_cast<double>(kept.tables->memory());
     }
-    return bytes;
+    return static_cast<int64_t>(bytes);
 }
 
 } // namespace wfpsf

@@ -24,6 +24,12 @@ struct KeptPsfs {
     bool serves(const SharedModel &wanted) const {
         return psf && model.eps == wanted.eps && model.radius == wanted.radius;
     }
+    bool serves(const SharedFarLight &wanted) const {
+        return tables && far.exact_radius == wanted.exact_radius &&
+               far.exact_eps <= wanted.exact_eps && far.radius == wanted.radius &&
+               far.floor <= wanted.floor && far.differences_floor <= wanted.differences_floor &&
+               far.differences_radius >= wanted.differences_radius;
+    }
 };
 
 // Holds for every key what was kept last. Thread-safe.

@@ -68,6 +68,13 @@ double SceneBudget::error() const {
     return noise * std::sqrt(variance);
 }
 
+double exact_far_eps(double densest, const ColourFacts &colour, const SceneBudget &budget) {
+    constexpr double little = 0.03; // of the budget
+    const double eps =
+        little * budget.error() / (of_exact_far_off * colour.profile.peak() * densest);
+    return std::clamp(eps, 1e-10, 1e-4);
+}
+
 double same_beyond(const ColourFacts &colour, double flux, const SceneBudget &budget) {
     constexpr double little = 0.1; // of the budget
     return colour.far->radius(little * budget.error() / (colour.far_varies * flux));
@@ -199,7 +206,7 @@ double Ways::far_off(const SharedFarLight &far, const Way &way) const {
                               : 0;
     if (far.exact_radius <= way.radius)
         return std::max(of_edges(way.radius), beyond) + of_tables;
-    const double exact = of_exact * far.exact_eps * colour_.profile.peak();
+    const double exact = of_exact_far_off * far.exact_eps * colour_.profile.peak();
     const double differences = colour_.varies ? of_differences * of_edges(way.radius) : 0;
     return std::max({differences, of_edges(far.exact_radius), beyond}) + of_tables + exact;
 }
@@ -218,10 +225,12 @@ void Ways::add_far(const Way &way, double time_s, const SharedFarLight &far,
         Way with = way;
         with.far_drawing = drawing;
         const double off = far_off(far, with);
+        const double least =
+            drawing == FarDrawing::own ? far.floor : std::max(far.floor, far.differences_floor);
         for (const FarReach::Step &step : reach.steps()) {
             if (group_.densest * step.floor > budget_.error())
                 continue;
-            if (step.floor < far.floor ||
+            if (step.floor < least ||
                 2 * group_.densest * step.floor < negligible * budget_.error())
                 break;
             // A table ends somewhere.

@@ -68,8 +68,9 @@ struct SharedFarLight {
     double exact_eps = 0;
     double radius = 0; // where the tables end, native pixels
     // What those that are there already will do for: light down to that share, and differences
-    // between places out to a radius.
-    double floor = 0, differences_radius = std::numeric_limits<double>::infinity();
+    // between places out to a radius and down to a share.
+    double floor = 0;
+    double differences_radius = std::numeric_limits<double>::infinity(), differences_floor = 0;
     double time_s = 0;
 };
 
@@ -83,6 +84,10 @@ struct ColourFacts {
     std::optional<FarReach> far;
     double far_varies = 0; // largest difference between those places, as a share of the brightest
 };
+
+// What exact far light is made to, so that stars of `densest` e- in a pixel are off by a small part of
+// the budget.
+double exact_far_eps(double densest, const ColourFacts &colour, const SceneBudget &budget);
 
 // From where on it is of no account to stars of that flux how far light differs from place to place.
 double same_beyond(const ColourFacts &colour, double flux, const SceneBudget &budget);

@@ -64,7 +64,7 @@ Plane<double> drawn_at(const FarTables &tables, double x, double y) {
 
 TEST(FarTables, OfFarLightAloneAreThat) {
     const FarLight &light = lights_of_j129()[0];
-    const FarTables tables({&light, 1}, nullptr, image, {radius, radius, floor});
+    const FarTables tables({&light, 1}, nullptr, image, {radius, floor, radius, floor});
     Plane<double> expected(160, 150);
     light.add(star, nearest, floor, expected.view());
     const Plane<double> drawn = drawn_at(tables, -1e9, 3); // the same everywhere
@@ -82,7 +82,7 @@ TEST(FarTables, StandForExactPsfsOfAllPlaces) {
         const SceneOptics optics = broadband(band, sca);
         const std::vector<FarLight> lights = sca == 7 ? lights_of_j129() : at_places(optics);
         const Psf middle = exact(optics, 2044, 2044);
-        const FarTables tables(lights, &middle, image, {radius, radius, floor});
+        const FarTables tables(lights, &middle, image, {radius, floor, radius, floor});
         Plane<double> of_middle(160, 150), edges(160, 150);
         middle.add({&star, 1}, 1, of_middle.view(), 1);
         lights[0].add(star, nearest, floor, edges.view());
@@ -100,9 +100,9 @@ TEST(FarTables, StandForExactPsfsOfAllPlaces) {
 }
 
 TEST(FarTables, AreCoarseWhereLittleIsAsked) {
-    const FarTables fine(lights_of_j129(), nullptr, image, {radius, radius, floor});
+    const FarTables fine(lights_of_j129(), nullptr, image, {radius, floor, radius, floor});
     constexpr double little = 1e-6;
-    const FarTables coarse(lights_of_j129(), nullptr, image, {radius, radius, little});
+    const FarTables coarse(lights_of_j129(), nullptr, image, {radius, little, radius, little});
     const double error = largest_difference(drawn_at(coarse, 900, 3000), drawn_at(fine, 900, 3000));
     EXPECT_LE(error, 3 * little);
     EXPECT_GT(error, 0.03 * little);
@@ -110,7 +110,7 @@ TEST(FarTables, AreCoarseWhereLittleIsAsked) {
 
 TEST(FarTables, TellWhatTheyDraw) {
     const FarLight &light = lights_of_j129()[0];
-    const FarTables tables({&light, 1}, nullptr, image, {radius, radius, floor});
+    const FarTables tables({&light, 1}, nullptr, image, {radius, floor, radius, floor});
     for (const double faint : {1e-6, 1e-8})
         for (const double within : {35.0, 1e9}) {
             Plane<double> drawn(160, 150);
@@ -127,7 +127,7 @@ TEST(FarTables, TellWhatTheyDraw) {
 
 TEST(FarTables, DrawRowsAsTheWholeAndLeaveOutWhatIsFaint) {
     constexpr double wide = 60;
-    const FarTables tables(lights_of_j129(), nullptr, image, {wide, wide, floor});
+    const FarTables tables(lights_of_j129(), nullptr, image, {wide, floor, wide, floor});
     const Plane<double> whole = drawn_at(tables, 900, 3000);
     Plane<double> rows(160, 150);
     for (int64_t y = 0; y < rows.ny(); y += 7)

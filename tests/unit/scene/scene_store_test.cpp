@@ -70,6 +70,8 @@ TEST(SceneStore, BroadbandScenesAreWhatTheyAreAlone) {
     rendered(optics, stars(1), reuse);
     const ScenePlan plan(optics, stars(2), {}, budget, image, reuse);
     EXPECT_TRUE(plan.far()[0].needed);
+    EXPECT_GT(plan.memory(), reuse.store->memory()); // something is made beside what is held
+    EXPECT_LT(plan.memory(), 5 * reuse.store->memory());
     const Rendered second = rendered(optics, stars(2), reuse);
     EXPECT_EQ(second.report.exact_psfs, 0);
     const Rendered alone = rendered(optics, stars(2), {});
