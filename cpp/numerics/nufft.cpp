@@ -279,8 +279,10 @@ Type1Transform::Type1Transform(Band a, Band b, int64_t K, double eps, size_t cou
     : K_(K), oversampling_(oversampling_for(eps)), width_(width_for(eps)),
       x_(a, fine_cells(K, width_, oversampling_), width_), y_(b, x_.n, width_),
       correction_(kernel_correction(width_, beta_for(width_, oversampling_), K, x_.n)),
-      stride_((x_.used + batch - 1) / batch * batch),
-      cells_(count, Cells(static_cast<size_t>(stride_ * y_.used + batch), Complex(0))) {}
+      stride_((x_.used + batch - 1) / batch * batch) {
+    while (cells_.size() < count)
+        cells_.emplace_back(static_cast<size_t>(stride_ * y_.used + batch), Complex(0));
+}
 
 Type1Transform::Memory Type1Transform::memory(Band a, Band b, int64_t K, double eps) {
     const int width = width_for(eps);
