@@ -37,14 +37,14 @@ EdgeFringes::EdgeFringes(const FarSource &source, const EdgeColours &colours,
             continue;
         const auto [nx, ny] = table.axes();
         Group group{table.axes(), table.end(), table.end(), 0,
-                    std::sqrt(3 * colours.variance(-ny, nx))};
+                    std::sqrt(colours.variance(-ny, nx))};
         for (size_t i = 0; i < colours.edges().size(); ++i) {
             const EdgeColours::Edge &edge = colours.edges()[i];
             if (std::ranges::count(table.members(), edge.straight) == 0)
                 continue;
-            Member member{edge, colours.waves(i)};
             // The visibility holds a root of the wavelength that two edges do not have.
-            for (ColourWaves &wave : member.waves)
+            std::vector<ColourWaves> waves = colours.waves(i);
+            for (ColourWaves &wave : waves)
                 for (size_t m = 0; m < far_colours; ++m) {
                     const double scale = std::pow(visibility_->wavenumbers()[m] / mean, 0.25);
                     wave.re[m] *= scale;
@@ -62,15 +62,53 @@ EdgeFringes::EdgeFringes(const FarSource &source, const EdgeColours &colours,
                 group.pairs.push_back({static_cast<size_t>(&other - group.members.data()),
                                        group.members.size(), end});
             }
-            group.members.push_back(std::move(member));
+            group.members.emplace_back(colours, i, std::move(waves));
         }
-        for (size_t j = 0; ring(j) < group.end; ++j)
-            group.most.push_back(most(group, std::max(group.begin, ring(j))));
-        group.most.push_back(0);
-        for (size_t j = group.most.size() - 1; j-- > 0;)
-            group.most[j] = std::max(group.most[j], group.most[j + 1]);
+        for (Pair &pair : group.pairs) {
+            for (size_t j = 0; ring(j) < pair.end; ++j)
+                pair.most.push_back(most(group, pair, std::max(group.begin, ring(j))));
+            pair.most.push_back(0);
+            for (size_t j = pair.most.size() - 1; j-- > 0;)
+                pair.most[j] = std::max(pair.most[j], pair.most[j + 1]);
+        }
         groups_.push_back(std::move(group));
     }
+}
+
+EdgeFringes::Member::Member(const EdgeColours &colours, size_t i, std::vector<ColourWaves> all)
+    : edge(colours.edges()[i]), waves(std::move(all)) {
+    const auto half = static_cast<int64_t>(2 * edge.reach);
+    for (int64_t k = -half; k <= half; ++k) {
+        const double across = static_cast<double>(k) / 2;
+        const auto at =
+            static_cast<size_t>(std::lround((across + edge.reach) * colours.per_across())) + 2;
+        amplitude_.push_back(within(across / edge.reach) * wfpsf::most({&waves[at], 1}));
+    }
+    outwards_.assign(static_cast<size_t>(half) + 1, 0);
+    for (int64_t k = half; k >= 0; --k) {
+        const double here = std::max(amplitude_[static_cast<size_t>(half - k)],
+                                     amplitude_[static_cast<size_t>(half + k)]);
+        outwards_[static_cast<size_t>(k)] =
+            std::max(here, k < half ? outwards_[static_cast<size_t>(k) + 1] : 0);
+    }
+}
+
+double EdgeFringes::Member::amplitude(double across) const {
+    const int64_t at = std::lround(2 * across) + static_cast<int64_t>(outwards_.size()) - 1;
+    return at >= 0 && at < std::ssize(amplitude_) ? amplitude_[static_cast<size_t>(at)] : 0;
+}
+
+double EdgeFringes::Member::reach(double share) const {
+    const double least = share * outwards_[0];
+    const auto faint =
+        std::ranges::partition_point(outwards_, [&](double light) { return light > least; });
+    return std::min(static_cast<double>(faint - outwards_.begin()) / 2, edge.reach);
+}
+
+double EdgeFringes::Pair::end_above(double floor) const {
+    const auto faint =
+        std::ranges::partition_point(most, [&](double light) { return light > floor; });
+    return std::min(end, ring(static_cast<size_t>(faint - most.begin())));
 }
 
 // Where the fringes of two edges are faint, or their light is apart.
@@ -88,30 +126,21 @@ double EdgeFringes::end_of(const Group &group, const EdgeColours::Edge &a,
 }
 
 // Without regard to phases.
-double EdgeFringes::most(const Group &group, double r) const {
-    const auto amplitude = [&](const Member &member, double across) {
-        const double reach = member.edge.reach;
-        const auto at = static_cast<size_t>(std::lround((across + reach) * per_across_)) + 2;
-        return within(across / reach) * wfpsf::most({&member.waves[at], 1});
-    };
+double EdgeFringes::most(const Group &group, const Pair &pair, double r) const {
+    const Member &a = group.members[pair.first], &b = group.members[pair.second];
     double most = 0;
+    const auto half = static_cast<int>(2 * a.edge.reach);
     for (const double side : {-1.0, 1.0})
-        for (int i = 0; i <= static_cast<int>(4 * group.reach); ++i) { // half pixels
-            const double aside = i / 2.0 - group.reach;
-            const double x = side * group.axes.nx * r - group.axes.ny * aside;
-            const double y = side * group.axes.ny * r + group.axes.nx * aside;
-            double sum = 0;
-            for (const Pair &pair : group.pairs) {
-                const Member &a = group.members[pair.first], &b = group.members[pair.second];
-                const double at_a = a.edge.axes.across(x, y), at_b = b.edge.axes.across(x, y);
-                if (r > pair.end || std::abs(at_a) > a.edge.reach || std::abs(at_b) > b.edge.reach)
-                    continue;
-                const double path =
-                    std::abs((a.edge.x - b.edge.x) * x + (a.edge.y - b.edge.y) * y) -
-                    (a.edge.length * std::abs(at_a) + b.edge.length * std::abs(at_b)) / 2;
-                sum += amplitude(a, at_a) * amplitude(b, at_b) * visibility_->most(path * pixel_);
-            }
-            most = std::max(most, sum);
+        for (int k = -half; k <= half; ++k) {
+            const double aside = k / 2.0;
+            const double x = side * a.edge.axes.nx * r - a.edge.axes.ny * aside;
+            const double y = side * a.edge.axes.ny * r + a.edge.axes.nx * aside;
+            const double across = b.edge.axes.across(x, y);
+            const double path =
+                std::abs((a.edge.x - b.edge.x) * x + (a.edge.y - b.edge.y) * y) -
+                (a.edge.length * std::abs(aside) + b.edge.length * std::abs(across)) / 2;
+            most = std::max(most, a.amplitude(aside) * b.amplitude(across) *
+                                      visibility_->most(path * pixel_));
         }
     return scale_ * most / (r * r);
 }
@@ -166,39 +195,45 @@ double EdgeFringes::brightest(double r, const SpikeAxes &spike) const {
     double sum = 0;
     for (const Group &group : groups_)
         if (std::abs(group.axes.across(spike.nx, spike.ny)) < same_direction)
-            sum += group.most[std::min(ring_of(r), group.most.size() - 1)];
+            for (const Pair &pair : group.pairs)
+                sum += pair.most[std::min(ring_of(r), pair.most.size() - 1)];
     return sum;
 }
 
 void EdgeFringes::add(const PixelRow &row, double floor) const {
-    for (const Group &group : groups_) {
-        const auto faint = std::ranges::find_if(group.most, [&](double m) { return m <= floor; });
-        const double end =
-            std::min(group.end, ring(static_cast<size_t>(faint - group.most.begin())));
-        for (const Run &run : runs_along(group.axes, row, group.reach, group.begin, end))
+    for (const Group &group : groups_)
+        for (const Run &run : runs_along(group.axes, row, group.reach, group.begin, group.end)) {
+            const auto at = [&](int64_t pixel) {
+                return group.axes.along(row.x + static_cast<double>(pixel), row.y);
+            };
+            const double nearest = std::min(std::abs(at(run.first)), std::abs(at(run.last)));
             for (const Pair &pair : group.pairs) {
+                const double end = pair.end_above(floor);
+                if (nearest >= end)
+                    continue;
                 const Member &a = group.members[pair.first], &b = group.members[pair.second];
-                const auto near = [&](Run of, const EdgeColours::Edge &edge) {
-                    return between(of, edge.axes.across(row.x, row.y), -edge.axes.ny, -edge.reach,
-                                   edge.reach);
+                const double share = floor / pair.most[ring_of(nearest)];
+                const auto near = [&](Run of, const Member &member) {
+                    const SpikeAxes &axes = member.edge.axes;
+                    const double reach = member.reach(share);
+                    return between(of, axes.across(row.x, row.y), -axes.ny, -reach, reach);
                 };
-                const Run seen = between(run, group.axes.along(row.x, row.y), group.axes.nx,
-                                         -pair.end, pair.end);
-                const Run both = near(near(seen, a.edge), b.edge);
+                const Run seen =
+                    between(run, group.axes.along(row.x, row.y), group.axes.nx, -end, end);
+                const Run both = near(near(seen, a), b);
                 if (both.first > both.last)
                     continue;
                 const PixelRow part = row.part(both.first, both.last);
-                // The pixel across the spike is three samples, the outer ones of a sixth.
-                for (const int sample : {-1, 0, 1}) {
+                for (const int sample : {-1, 1}) {
                     const double aside = sample * group.aside;
                     add_pair({a.edge, b.edge, a.waves.data() + 1, b.waves.data() + 1,
                               visibility_->table(), visibility_->per_path(), visibility_->longest(),
                               visibility_->middle(), pixel_, scale_, per_across_},
-                             sample == 0 ? 2.0 / 3 : 1.0 / 6, part.x - aside * group.axes.ny,
-                             part.y + aside * group.axes.nx, part.light.size(), part.light.data());
+                             0.5, part.x - aside * group.axes.ny, part.y + aside * group.axes.nx,
+                             part.light.size(), part.light.data());
                 }
             }
-    }
+        }
 }
 
 } // namespace wfpsf

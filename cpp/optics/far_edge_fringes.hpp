@@ -22,24 +22,35 @@ class EdgeFringes {
 
   private:
     struct Member {
+        Member(const EdgeColours &colours, size_t edge, std::vector<ColourWaves> waves);
+        double amplitude(double across) const;
+        // Farther across all is fainter than that share of the brightest.
+        double reach(double share) const;
+
         EdgeColours::Edge edge;
         std::vector<ColourWaves> waves;
+
+      private:
+        std::vector<double> amplitude_; // of all colours, by half pixels across
+        std::vector<double> outwards_;  // the largest so many half pixels or more off the middle
     };
     struct Pair {
-        size_t first, second; // members
-        double end;           // native pixels; from there on its fringes are faint
+        size_t first, second;          // members
+        double end;                    // native pixels; from there on its fringes are faint
+        std::vector<double> most = {}; // from each ring on
+        // From there on it is fainter.
+        double end_above(double floor) const;
     };
     struct Group {
         SpikeAxes axes;
         double begin, end; // native pixels, along
         double reach;      // across
-        double aside;      // of the samples that stand for a pixel across the spike
+        double aside;      // of the two samples that stand for a pixel across the spike
         std::vector<Member> members = {};
         std::vector<Pair> pairs = {};
-        std::vector<double> most = {}; // from each ring on
     };
     double end_of(const Group &group, const EdgeColours::Edge &a, const EdgeColours::Edge &b) const;
-    double most(const Group &group, double r) const;
+    double most(const Group &group, const Pair &pair, double r) const;
 
     std::shared_ptr<const Visibility> visibility_;
     double pixel_, scale_, per_across_;
