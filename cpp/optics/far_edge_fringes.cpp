@@ -223,7 +223,7 @@ void EdgeFringes::add(const PixelRow &row, double floor) const {
                 const Run both = near(near(seen, a), b);
                 if (both.first > both.last)
                     continue;
-                const PixelRow part = row.part(both.first, both.last);
+                const PixelRow::Part part = row.part(both);
                 for (const int sample : {-1, 1}) {
                     const double aside = sample * group.aside;
                     add_pair({a.edge, b.edge, a.waves.data() + 1, b.waves.data() + 1,

@@ -123,10 +123,10 @@ void Halo::add(const PixelRow &row, double floor) const {
     const double half = std::sqrt(square);
     const auto first = static_cast<int64_t>(std::ceil(std::max(0.0, -half - row.x)));
     const auto last = static_cast<int64_t>(
-        std::floor(std::min(static_cast<double>(row.light.size()) - 1, half - row.x)));
+        std::floor(std::min(static_cast<double>(row.size() - 1), half - row.x)));
     if (first > last)
         return;
-    const PixelRow part = row.part(first, last);
+    const PixelRow::Part part = row.part({first, last});
     add_halo({nearest_, corners_, table_.data()}, part.x, part.y, part.light.size(),
              part.light.data());
 }

@@ -110,10 +110,11 @@ void FarLight::add(const PixelRow &row, double floor) const {
 }
 
 double FarLight::at(double x, double y) const {
-    double light[2] = {0, 0}; // a row has two pixels or more
+    double light[2]; // a row has two pixels or more
+    uint8_t lit[1] = {0};
     constexpr double no_floor = 1e-30;
-    add({x, mirror_ * y, light}, no_floor);
-    return light[0];
+    add({x, mirror_ * y, light, lit}, no_floor);
+    return lit[0] ? light[0] : 0;
 }
 
 template <class T>
@@ -127,6 +128,7 @@ void FarLight::add(const Star &star, double inner, double floor, View<T> image, 
     const double share = floor / std::abs(star.flux);
     on_bands_of_rows(image.ny, threads, [&](int64_t first_row, int64_t last_row) {
         std::vector<double> light(static_cast<size_t>(image.nx));
+        std::vector<uint8_t> lit(light.size() / PixelRow::block + 1);
         for (int64_t y = first_row; y <= last_row; ++y) {
             const double off = static_cast<double>(y) - star.y;
             const auto part = [&](int64_t first, int64_t end) {
@@ -134,12 +136,16 @@ void FarLight::add(const Star &star, double inner, double floor, View<T> image, 
                 end = std::clamp<int64_t>(end, first, image.nx);
                 if (first == end)
                     return;
-                const std::span<double> pixels(light.data(), static_cast<size_t>(end - first));
-                std::ranges::fill(pixels, 0.0);
-                add({static_cast<double>(first) - star.x, mirror_ * off, pixels}, share);
-                for (int64_t x = first; x < end; ++x)
-                    image(x, y) +=
-                        static_cast<T>(star.flux * pixels[static_cast<size_t>(x - first)]);
+                std::ranges::fill(lit, uint8_t{0});
+                const PixelRow row(static_cast<double>(first) - star.x, mirror_ * off,
+                                   {light.data(), static_cast<size_t>(end - first)}, lit);
+                add(row, share);
+                row.for_lit([&](int64_t from, std::span<const double> pixels) {
+                    T *const to = &image(first + from, y);
+                    for (size_t i = 0; i < pixels.size(); ++i)
+                        to[static_cast<int64_t>(i) * image.stride_x] +=
+                            static_cast<T>(star.flux * pixels[i]);
+                });
             };
             if (std::abs(off) > inner) {
                 part(0, image.nx);

@@ -187,7 +187,7 @@ template <class Point> void PointFringes<Point>::add(const PixelRow &row, double
                 const Run lit = high > end ? between(run, here, axes.nx, -end, end) : run;
                 if (lit.first > lit.last)
                     continue;
-                const PixelRow part = row.part(lit.first, lit.last);
+                const PixelRow::Part part = row.part(lit);
                 add_pair<Point>({edge.edge, edge.waves[pair.waves].data() + 1, points_[pair.point],
                                  visibility_->table(), visibility_->per_path(),
                                  visibility_->longest(), visibility_->middle(), wavelength_, pixel_,

@@ -21,72 +21,7 @@ namespace {
     return cubic(s, here[-1], here[0], here[1], here[2]);
 }
 
-// ----------------------------------------------------------------------------------- runs in a row
-
-// Parts of a row between the roots of some conditions, where the middle is accepted.
-template <class Accept>
-std::vector<Run> accepted_runs(std::vector<double> roots, double x, int64_t n,
-                               const Accept &accept) {
-    const double last = x + static_cast<double>(n - 1);
-    std::erase_if(roots, [&](double root) { return !(root > x && root < last); });
-    roots.push_back(x);
-    roots.push_back(last);
-    std::ranges::sort(roots);
-    std::vector<Run> runs;
-    for (size_t i = 0; i + 1 < roots.size(); ++i)
-        if (accept((roots[i] + roots[i + 1]) / 2)) {
-            const auto first = static_cast<int64_t>(std::ceil(roots[i] - x));
-            const auto end = static_cast<int64_t>(std::floor(roots[i + 1] - x));
-            // A pixel on a root belongs to what is left of it.
-            const int64_t begin = runs.empty() ? first : std::max(first, runs.back().last + 1);
-            if (begin <= end)
-                runs.push_back({begin, end});
-        }
-    return runs;
-}
-
-// Where a x^2 + b x + c = 0.
-void add_roots(std::vector<double> &roots, double a, double b, double c) {
-    const double discriminant = b * b - 4 * a * c;
-    if (discriminant < 0)
-        return;
-    const double sum = b + std::copysign(std::sqrt(discriminant), b);
-    roots.push_back(-2 * c / sum);
-    roots.push_back(-sum / (2 * a));
-}
-
 } // namespace
-
-Run between(Run run, double start, double step, double low, double high) {
-    const double a = (low - start) / step, b = (high - start) / step;
-    if (!std::isnan(a) && !std::isnan(b)) {
-        const auto first = static_cast<double>(run.first), last = static_cast<double>(run.last);
-        run.first = static_cast<int64_t>(std::ceil(std::clamp(std::min(a, b), first, last + 1)));
-        run.last = static_cast<int64_t>(std::floor(std::clamp(std::max(a, b), first - 1, last)));
-    }
-    return run;
-}
-
-std::vector<Run> runs_along(const SpikeAxes &axes, const PixelRow &row, double reach,
-                            double nearest, double farthest) {
-    const auto &[nx, ny] = axes;
-    if (std::abs(row.y) > farthest + reach)
-        return {};
-    std::vector<double> roots;
-    roots.reserve(9);
-    roots.push_back(-ny * row.y / nx); // along = 0
-    for (const double side : {-1.0, 1.0}) {
-        roots.push_back((nx * row.y - side * reach) / ny);
-        for (const double end : {nearest, farthest})
-            roots.push_back((side * end - ny * row.y) / nx);
-    }
-    return accepted_runs(std::move(roots), row.x, static_cast<int64_t>(row.light.size()),
-                         [&](double x) {
-                             const double along = std::abs(axes.along(x, row.y));
-                             return std::abs(axes.across(x, row.y)) <= reach && along <= farthest &&
-                                    along >= nearest;
-                         });
-}
 
 double FarSource::bandwidth() const {
     return optics.aperture->diameter() * pixel() / std::ranges::min(spectrum.wavelength);
@@ -169,20 +104,17 @@ void Spike::add(const PixelRow &row, double floor) const {
     const auto &[nx, ny] = axes_;
     const double product = std::sqrt(2 * scale_ * tail_ / floor); // of along and across
     const double farthest = std::sqrt(2 * scale_ * most_ / floor);
-    std::vector<double> roots;
-    roots.reserve(10);
+    Roots roots;
     for (const double side : {-1.0, 1.0}) {
-        add_roots(roots, -nx * ny, (nx * nx - ny * ny) * row.y,
-                  nx * ny * row.y * row.y - side * product);
-        roots.push_back((side * farthest - ny * row.y) / nx);         // along = side * farthest
-        roots.push_back(row.y * (nx - side * ny) / (ny + side * nx)); // across = side * along
+        roots.add(-nx * ny, (nx * nx - ny * ny) * row.y, nx * ny * row.y * row.y - side * product);
+        roots.add((side * farthest - ny * row.y) / nx);         // along = side * farthest
+        roots.add(row.y * (nx - side * ny) / (ny + side * nx)); // across = side * along
     }
-    const auto runs = accepted_runs(
-        std::move(roots), row.x, static_cast<int64_t>(row.light.size()), [&](double x) {
-            const double along = std::abs(axes_.along(x, row.y));
-            const double across = std::abs(axes_.across(x, row.y));
-            return along * across <= product && along <= farthest && across <= along;
-        });
+    const Runs runs = roots.runs(row, [&](double x) {
+        const double along = std::abs(axes_.along(x, row.y));
+        const double across = std::abs(axes_.across(x, row.y));
+        return along * across <= product && along <= farthest && across <= along;
+    });
     const SpikeTable table{axes_,
                            scale_,
                            tail_,
@@ -196,7 +128,7 @@ void Spike::add(const PixelRow &row, double floor) const {
     const auto draw = [&](auto &add, int64_t first, int64_t last) {
         if (first > last)
             return;
-        const PixelRow part = row.part(first, last);
+        const PixelRow::Part part = row.part({first, last});
         add(table, part.x, part.y, part.light.size(), part.light.data());
     };
     const auto profile = rounding_ > 0 ? add_profile<true> : add_profile<false>;
@@ -272,9 +204,8 @@ void Fringes::add(const PixelRow &row, double floor) const {
     const int64_t half = columns_ / 2;
     const double reach = static_cast<double>(half - 2) / per_across_;
     const double farthest = std::min(end_, std::sqrt(most_.front() / floor));
-    const auto runs = runs_along(axes_, row, reach, nearest_, farthest);
-    for (const Run &run : runs) {
-        const PixelRow part = row.part(run.first, run.last);
+    for (const Run &run : runs_along(axes_, row, reach, nearest_, farthest)) {
+        const PixelRow::Part part = row.part(run);
         const double middle = part.x + static_cast<double>(part.light.size() - 1) / 2;
         const bool behind = axes_.along(middle, part.y) < 0;
         add_fringes(

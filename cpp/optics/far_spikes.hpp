@@ -5,6 +5,7 @@
 // Positions are native pixels from the star, in the pupil's frame.
 #pragma once
 
+#include "optics/far_rows.hpp"
 #include "optics/field.hpp"
 #include "optics/pupil_edges.hpp"
 #include "optics/spectrum.hpp"
@@ -36,37 +37,6 @@ struct FarSource {
         return optics.wavefront.scaled(optics.wavelength / wavelength);
     }
 };
-
-// Along and across a spike.
-struct SpikeAxes {
-    double nx, ny;
-    double along(double x, double y) const { return nx * x + ny * y; }
-    double across(double x, double y) const { return nx * y - ny * x; }
-};
-
-// A row of pixels, the first one at (x, y).
-struct PixelRow {
-    double x, y;
-    std::span<double> light;
-
-    PixelRow part(int64_t first, int64_t last) const {
-        return {x + static_cast<double>(first), y,
-                light.subspan(static_cast<size_t>(first), static_cast<size_t>(last - first + 1))};
-    }
-};
-
-// The pixels first..last of a row.
-struct Run {
-    int64_t first, last;
-};
-
-// The part of a run where start + step * pixel is between two bounds.
-Run between(Run run, double start, double step, double low, double high);
-
-// Those up to `reach` across from a spike's line and between two distances along it, on either side
-// of the star; no run is on both.
-std::vector<Run> runs_along(const SpikeAxes &axes, const PixelRow &row, double reach,
-                            double nearest, double farthest);
 
 // 1 in the inner two thirds of -1..1, smoothly to 0 outside.
 [[gnu::always_inline]] inline double within(double t) {
