@@ -66,7 +66,8 @@ std::vector<double> to_vector(const Eigen::VectorXd &taps) {
 
 // As few products as the filter allows: its singular vectors, down to `error` in all.
 SeparableFilter in_few_terms(const Eigen::MatrixXd &filter, double error) {
-    const Eigen::BDCSVD<Eigen::MatrixXd> svd(filter, Eigen::ComputeThinU | Eigen::ComputeThinV);
+    const Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner> svd(
+        filter, Eigen::ComputeThinU | Eigen::ComputeThinV);
     const Eigen::VectorXd &value = svd.singularValues();
     const auto size = [&](Eigen::Index i) {
         return value[i] * svd.matrixU().col(i).lpNorm<1>() * svd.matrixV().col(i).lpNorm<1>();

@@ -2,6 +2,7 @@
 // PSFs of many colours against the sum of monochromatic ones, each diffracted by itself: for all
 // kinds of pupils, wavefronts and frames.
 #include "instrument/instrument.hpp"
+#include "large_case.hpp"
 #include "optics/psf.hpp"
 #include "optics/spectrum.hpp"
 
@@ -183,6 +184,7 @@ TEST(Scaling, DerivativesMeetDifferences) {
 // Far from the axis, where images are made of fewer terms and by shorter filters, in single
 // precision, and near it, where they are a sum of fewer wavelengths.
 TEST(Scaling, WideFieldsMeetTheSumOfTheirColours) {
+    WFPSF_LARGE_CASE();
     const double radius = 64;
     const auto width = static_cast<int64_t>(2 * radius - 1);
     const Star middle{radius - 1.3, radius - 0.6, 1};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "error/error.hpp"
 #include "instrument/instrument.hpp"
+#include "large_case.hpp"
 #include "optics/psf.hpp"
 #include "oracles/galaxy_oracle.hpp"
 #include "scene/galaxy.hpp"
@@ -100,6 +101,7 @@ TEST(Galaxy, MeetsSumsInRealSpace) {
 
 // A galaxy as many stars, behind Roman's PSF.
 TEST(Galaxy, IsASumOfStars) {
+    WFPSF_LARGE_CASE();
     const auto &roman = std::get<RomanPupil>(Instrument::get("roman-c9").pupil(3, "H158"));
     const Wavefront wavefront(std::vector<double>{0, 0, 0, 0.05, -0.03, 0.02, 0.02, -0.03}, 1.18);
     const double scale = pixel_arcsec * pi / 180 / 3600;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scenes against brute force: every error within the budget, at any budget and number of threads.
+#include "large_case.hpp"
 #include "scene/render.hpp"
 #include "scenes.hpp"
 
@@ -35,6 +36,7 @@ void expect_within_budgets(const SceneOptics &optics, const std::vector<PlacedSo
 const SceneImage image{.x0 = 1000, .y0 = 2000, .nx = 128, .ny = 96};
 
 TEST(Render, ErrorsStayWithinTheBudget) {
+    WFPSF_LARGE_CASE();
     const SceneOptics optics = scenes::roman("J129", {monochromatic(1293e-9)});
     for (const unsigned seed : {1u, 2u})
         expect_within_budgets(optics, scenes::stars({60, 18, 26, 0.3, 5e12}, image, 20, 1, seed),
