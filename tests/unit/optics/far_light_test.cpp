@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "error/error.hpp"
 #include "instrument/instrument.hpp"
+#include "large_case.hpp"
 #include "optics/far_light.hpp"
 #include "optics/psf.hpp"
 #include "optics/pupil_edges.hpp"
@@ -166,6 +167,7 @@ TEST(FarLight, IsThatOfTheExactEngineForRoman) {
 
 // There the strut's short end beside it is seen 20 pixels off its own spike: it took 5 % of the light.
 TEST(FarLight, IsThatOfTheExactEngineBeyondTheTablesOfSpikes) {
+    WFPSF_LARGE_CASE();
     const TiltedStar scene("roman-c9", "J129");
     const Patch patch{356, 87, 0.003, 0.006};
     const auto x = static_cast<double>(patch.x), y = static_cast<double>(patch.y);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scenes that share what they are drawn with: the second one makes none of it, and errors stay
 // within the budget, whatever the store holds.
+#include "large_case.hpp"
 #include "scene/render.hpp"
 #include "scenes.hpp"
 
@@ -42,6 +43,7 @@ std::vector<PlacedSource> stars(unsigned seed, double bright = 19) {
 }
 
 TEST(SceneStore, FurtherScenesMakeNoModelsAndMeetTheBudget) {
+    WFPSF_LARGE_CASE();
     const SceneOptics optics = scenes::roman("J129", {monochromatic(1293e-9)});
     const SceneReuse reuse{std::make_shared<SceneStore>(), 20};
     EXPECT_EQ(reuse.store->memory(), 0);
@@ -55,6 +57,7 @@ TEST(SceneStore, FurtherScenesMakeNoModelsAndMeetTheBudget) {
 }
 
 TEST(SceneStore, BrighterStarsThanBeforeMeetTheBudget) {
+    WFPSF_LARGE_CASE();
     const SceneOptics optics = scenes::roman("J129", {monochromatic(1293e-9)});
     const SceneReuse reuse{std::make_shared<SceneStore>(), 1};
     rendered(optics, stars(1, 24), reuse);
