@@ -77,7 +77,7 @@ inline double places(double stars, double width, double left_out) {
 
 // Far light on that many pixels of an image of so many, drawn by itself; and from tables.
 inline double far_light(double pixels, double image) {
-    return 1e-4 + 4e-10 * image + 1e-8 * pixels;
+    return 1e-4 + 6e-10 * image + 1.3e-8 * pixels;
 }
 inline double far_blocks(double pixels) {
     return 1e-5 + 3.5e-9 * pixels;

@@ -19,6 +19,7 @@ constexpr double negligible = 0.01;
 // the core and far from it, those of the whole detector anywhere; and what these lack where parts are
 // left out. Then far light from the pupil's edges: of Roman's eight bands, at five detectors each.
 constexpr double of_exact = 0.05, of_exact_far_off = 0.015, of_left_out = 0.3;
+constexpr double of_exact_far_light = 0.004; // as far off as tables of far light begin
 double of_model(double eps) {
     return eps > 5e-4 ? 0.2 : 0.1;
 }
@@ -69,9 +70,9 @@ double SceneBudget::error() const {
 }
 
 double exact_far_eps(double densest, const ColourFacts &colour, const SceneBudget &budget) {
-    constexpr double little = 0.03; // of the budget
+    constexpr double little = 0.05; // of the budget
     const double eps =
-        little * budget.error() / (of_exact_far_off * colour.profile.peak() * densest);
+        little * budget.error() / (of_exact_far_light * colour.profile.peak() * densest);
     return std::clamp(eps, 1e-10, 1e-4);
 }
 
@@ -206,7 +207,7 @@ double Ways::far_off(const SharedFarLight &far, const Way &way) const {
                               : 0;
     if (far.exact_radius <= way.radius)
         return std::max(of_edges(way.radius), beyond) + of_tables;
-    const double exact = of_exact_far_off * far.exact_eps * colour_.profile.peak();
+    const double exact = of_exact_far_light * far.exact_eps * colour_.profile.peak();
     const double differences = colour_.varies ? of_differences * of_edges(way.radius) : 0;
     return std::max({differences, of_edges(far.exact_radius), beyond}) + of_tables + exact;
 }
