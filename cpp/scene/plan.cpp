@@ -289,7 +289,8 @@ std::vector<SharedFarLight> ScenePlan::far_lights(int32_t colour) const {
     const KeptPsfs there = kept(colour);
     const double scenes = there.tables ? 1 : reuse_.scenes; // as for models
     // As far out as exact light may be of use.
-    for (const double exact : {0.0, 48.0, 64.0, 96.0, 128.0, 192.0, 256.0, 362.0, 512.0}) {
+    for (const double exact :
+         {0.0, 48.0, 64.0, 96.0, 128.0, 192.0, 256.0, 304.0, 362.0, 430.0, 512.0}) {
         SharedFarLight &far = all.emplace_back();
         far.needed = true;
         far.exact_radius = exact;

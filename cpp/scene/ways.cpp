@@ -70,7 +70,7 @@ double SceneBudget::error() const {
 }
 
 double exact_far_eps(double densest, const ColourFacts &colour, const SceneBudget &budget) {
-    constexpr double little = 0.05; // of the budget
+    constexpr double little = 0.02; // of the budget
     const double eps =
         little * budget.error() / (of_exact_far_light * colour.profile.peak() * densest);
     return std::clamp(eps, 1e-10, 1e-4);
