@@ -158,11 +158,10 @@ struct Stars {
 
 Case stars_case(const Stars &field, double noise, double target_s, bool with_error) {
     char name[96];
-    const std::string one_of =
-        field.exposures > 1 ? ", a further one of " + std::to_string(field.exposures) : "";
-    std::snprintf(name, sizeof name, "%.3g stars AB %g..%g%s on 4088^2, %g of the noise%s",
+    std::snprintf(name, sizeof name, "%s%.3g stars AB %g..%g%s on 4088^2, %g of the noise",
+                  field.exposures > 1 ? "a further exposure, " : "",
                   static_cast<double>(field.count), field.bright, field.faint,
-                  field.slope < 0.1 ? " evenly" : "", noise, one_of.c_str());
+                  field.slope < 0.1 ? " evenly" : "", noise);
     return {name, "largest error / error allowed", target_s, 1, [=] {
                 const SceneOptics optics =
                     scenes::roman("J129", {detected_light(Instrument::get("roman-c9").band("J129"),
