@@ -157,7 +157,7 @@ struct Stars {
 };
 
 Case stars_case(const Stars &field, double noise, double target_s, bool with_error) {
-    char name[96];
+    char name[120];
     std::snprintf(name, sizeof name, "%s%.3g stars AB %g..%g%s on 4088^2, %g of the noise",
                   field.exposures > 1 ? "a further exposure, " : "",
                   static_cast<double>(field.count), field.bright, field.faint,
