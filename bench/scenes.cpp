@@ -23,7 +23,7 @@ class Truth {
     // What gives a pixel less than `little` electrons may be off.
     Truth(const SceneOptics &optics, double little)
         : optics_(optics), little_(little),
-          far_(optics.middle(), optics.lights[0], settings(1e-4, 32)) {}
+          far_(optics.middle(), optics.lights[0], probe_settings(optics.settings)) {}
 
     // All light that stars give a window. Those that give its pixels little, and very far ones, get
     // the far light of the detector's middle.
@@ -84,6 +84,19 @@ class Truth {
     FarLight far_;
 };
 
+// Where the first pixel of `light` is pixel (x0, y0) of the detector.
+double largest_error_in(const Plane<double> &light, int64_t x0, int64_t y0,
+                        const SceneBudget &budget, const Plane<float> &drawn) {
+    double worst = 0;
+    for (int64_t y = std::max<int64_t>(0, -y0); y < std::min(light.ny(), drawn.ny() - y0); ++y)
+        for (int64_t x = std::max<int64_t>(0, -x0); x < std::min(light.nx(), drawn.nx() - x0);
+             ++x) {
+            const double error = std::abs(static_cast<double>(drawn(x0 + x, y0 + y)) - light(x, y));
+            worst = std::max(worst, error / (budget.noise * std::sqrt(variance + light(x, y))));
+        }
+    return worst;
+}
+
 // Half the windows at random, half beside the brightest stars.
 double largest_error(const SceneOptics &optics, std::vector<PlacedSource> stars,
                      const SceneBudget &budget, const Plane<float> &drawn) {
@@ -104,15 +117,9 @@ double largest_error(const SceneOptics &optics, std::vector<PlacedSource> stars,
                                 .y0 = inside(beside ? bright.y + near(random) : anywhere(random)),
                                 .nx = size,
                                 .ny = size};
-        const Plane<double> light = truth.window(stars, window);
-        for (int64_t y = 0; y < size; ++y)
-            for (int64_t x = 0; x < size; ++x) {
-                const double error =
-                    std::abs(static_cast<double>(drawn(static_cast<int64_t>(window.x0) + x,
-                                                       static_cast<int64_t>(window.y0) + y)) -
-                             light(x, y));
-                worst = std::max(worst, error / (budget.noise * std::sqrt(variance + light(x, y))));
-            }
+        worst = std::max(worst, largest_error_in(truth.window(stars, window),
+                                                 static_cast<int64_t>(window.x0),
+                                                 static_cast<int64_t>(window.y0), budget, drawn));
     }
     return worst;
 }
@@ -128,7 +135,6 @@ double largest_error_about(const SceneOptics &optics, std::vector<PlacedSource> 
     settings.radius = radius + 1;
     const Psf psf = std::move(
         make_psfs(optics.nearest(bright.x, bright.y), {&optics.lights[0], 1}, settings)[0]);
-    settings.radius = 32;
     const int64_t x0 = std::lround(bright.x) - radius, y0 = std::lround(bright.y) - radius;
     const auto seen = [&](const PlacedSource &star) {
         return Star{star.x - static_cast<double>(x0), star.y - static_cast<double>(y0), star.flux};
@@ -137,16 +143,11 @@ double largest_error_about(const SceneOptics &optics, std::vector<PlacedSource> 
     psf.draw(seen(bright), 1, light.view());
     for (size_t k = 1; k < stars.size(); ++k) {
         constexpr double floor = 1e-5; // e-
-        const FarLight far(optics.nearest(stars[k].x, stars[k].y), optics.lights[0], settings);
+        const FarLight far(optics.nearest(stars[k].x, stars[k].y), optics.lights[0],
+                           probe_settings(optics.settings));
         far.add(seen(stars[k]), far.nearest(), floor, light.view());
     }
-    double worst = 0;
-    for (int64_t y = std::max<int64_t>(0, -y0); y < std::min(size, detector_pixels - y0); ++y)
-        for (int64_t x = std::max<int64_t>(0, -x0); x < std::min(size, detector_pixels - x0); ++x) {
-            const double error = std::abs(static_cast<double>(drawn(x0 + x, y0 + y)) - light(x, y));
-            worst = std::max(worst, error / (budget.noise * std::sqrt(variance + light(x, y))));
-        }
-    return worst;
+    return largest_error_in(light, x0, y0, budget, drawn);
 }
 
 struct Stars {

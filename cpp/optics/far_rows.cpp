@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "optics/far_rows.hpp"
 
-#include <cmath>
-
 namespace wfpsf {
 
 void Roots::add(double a, double b, double c) {
@@ -24,11 +22,6 @@ Few<double, most_runs> Roots::sorted_inside(const PixelRow &row) const {
     inside.push_back(last);
     std::ranges::sort(inside);
     return inside;
-}
-
-Run Roots::between(double from, double to, int64_t first) {
-    return {std::max(first, static_cast<int64_t>(std::ceil(from))),
-            static_cast<int64_t>(std::floor(to))};
 }
 
 Run between(Run run, double start, double step, double low, double high) {

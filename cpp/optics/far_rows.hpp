@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -104,17 +105,17 @@ class Roots {
         for (size_t i = 0; i + 1 < inside.size(); ++i)
             if (accept((inside[i] + inside[i + 1]) / 2)) {
                 // A pixel on a root belongs to what is left of it.
-                const Run run = between(inside[i] - row.x, inside[i + 1] - row.x,
-                                        runs.empty() ? 0 : runs.back().last + 1);
-                if (run.first <= run.last)
-                    runs.push_back(run);
+                const int64_t free = runs.empty() ? 0 : runs.back().last + 1;
+                const auto first = static_cast<int64_t>(std::ceil(inside[i] - row.x));
+                const auto last = static_cast<int64_t>(std::floor(inside[i + 1] - row.x));
+                if (std::max(first, free) <= last)
+                    runs.push_back({std::max(first, free), last});
             }
         return runs;
     }
 
   private:
     Few<double, most_runs> sorted_inside(const PixelRow &row) const;
-    static Run between(double from, double to, int64_t first);
 
     Few<double, most_runs - 2> all_;
 };

@@ -56,9 +56,9 @@ FarReach::FarReach(const FarLight &light, double brightest) : nearest_(light.nea
     double r = nearest_;
     while (r < farthest) {
         const double bound = light.brightest_beyond(r);
+        const FarLight::Error off = light.relative_error(r);
         rings_.push_back(
-            {brightest * bound, std::max(light.relative_error(r).spikes * bound,
-                                         light.relative_error(r).halo * light.halo_beyond(r))});
+            {brightest * bound, std::max(off.spikes * bound, off.halo * light.halo_beyond(r))});
         r *= std::exp2(1 / rings_per_octave);
     }
 }

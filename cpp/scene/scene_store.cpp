@@ -28,16 +28,17 @@ void SceneStore::keep(uint64_t key, const KeptPsfs &made) {
 
 int64_t SceneStore::memory() const {
     const std::lock_guard lock(mutex_);
-    double bytes = 0;
+    int64_t bytes = 0;
     for (const auto &[key, kept] : kept_) {
         if (kept.facts)
-            bytes += static_cast<double>(kept.facts->far_lights.size()) * cost::far_light_memory;
+            bytes += static_cast<int64_t>(cost::far_light_memory *
+                                          static_cast<double>(kept.facts->far_lights.size()));
         if (kept.psf)
-            bytes += static_cast<double>(kept.psf->memory());
+            bytes += kept.psf->memory();
         if (kept.tables)
-            bytes += static_cast<double>(kept.tables->memory());
+            bytes += kept.tables->memory();
     }
-    return static_cast<int64_t>(bytes);
+    return bytes;
 }
 
 } // namespace wfpsf
