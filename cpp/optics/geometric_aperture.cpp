@@ -123,11 +123,13 @@ class Transform {
 
     // |A|^2 in rows first..first+count-1 of the grid.
     Plane<double> intensity(int64_t first, int64_t count, size_t which = 0) const {
-        auto out = Plane<double>::unset(2 * bands_.modes + 1, count);
+        Plane<double> out; // made after the transform's own memory, which serves the next one again
         const int64_t origin = first - bands_.modes;
         nufft_.rows(
             origin, origin + count - 1,
             [&](int64_t jy, std::span<const Complex> amplitude) {
+                if (jy == origin)
+                    out = Plane<double>::unset(2 * bands_.modes + 1, count);
                 double *row = out.view().row(jy - origin);
                 for (size_t x = 0; x < amplitude.size(); ++x)
                     row[x] = std::norm(amplitude[x]);

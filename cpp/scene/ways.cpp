@@ -164,8 +164,8 @@ double Ways::mean(double light, double cut) const {
     return group_.flux * std::min(light / (image_.native_x() * image_.native_y()), cut);
 }
 
-// By stamps that leave out so much `local`ly, and about all light beyond `from`, `cut` of a source's
-// in any pixel.
+// By stamps of which a source's light is off so much `local`ly, and that leave out about all light
+// beyond `from`, `cut` of a source's in any pixel.
 PixelError Ways::left_out(const Way &way, double local, double from, double cut) const {
     const double light = mean(colour_.profile.beyond(from), cut);
     if (!way.is_smooth_beyond())
@@ -175,17 +175,17 @@ PixelError Ways::left_out(const Way &way, double local, double from, double cut)
 
 void Ways::leave_far(const Way &way, double time_s, const Take &take) const {
     const double of_psf = psf_error(group_, colour_, budget_, way);
-    PixelError error;
+    PixelError error{of_psf, 0};
     if (way.radius < group_.reach) {
         if (colour_.profile.beyond(way.radius) > budget_.flux)
             return;
         // Spikes that fall on each other, and the mean of what others near by leave out.
-        const double local =
-            group_.densest * cut(way.radius) +
+        const double own = group_.densest * cut(way.radius);
+        const double others =
             (group_.crowded - group_.densest) * colour_.profile.mean_at(way.radius);
-        error = left_out(way, local, way.radius, cut(way.radius));
+        error = left_out(way, std::max(of_psf, own) + others, way.radius, cut(way.radius));
     }
-    take({way, time_s, {error.local + of_psf, error.mean}});
+    take({way, time_s, error});
 }
 
 // What far light is off beyond the stamps, as a share of a star's light; in units of the noise,
@@ -200,16 +200,17 @@ double Ways::far_off(const SharedFarLight &far, const Way &way) const {
     };
     const bool differs_by_place = way.far_drawing != FarDrawing::own;
     const double of_tables =
-        of_light(interpolated + (differs_by_place ? mixed * std::pow(colour_.far_varies, 1.5) : 0),
-                 way.radius);
+        interpolated + (differs_by_place ? mixed * std::pow(colour_.far_varies, 1.5) : 0);
     const double beyond = way.far_drawing == FarDrawing::nearest
                               ? of_light(off_nearest * colour_.far_varies, far.radius)
                               : 0;
-    if (far.exact_radius <= way.radius)
-        return std::max(of_edges(way.radius), beyond) + of_tables;
-    const double exact = of_exact_far_light * far.exact_eps * colour_.profile.peak();
+    const double from = std::max(far.exact_radius, way.radius);
+    const double farther = std::max(of_edges(from), beyond) + of_light(of_tables, from);
+    if (from == way.radius)
+        return farther;
     const double differences = colour_.varies ? of_differences * of_edges(way.radius) : 0;
-    return std::max({differences, of_edges(far.exact_radius), beyond}) + of_tables + exact;
+    const double exact = of_exact_far_light * far.exact_eps * colour_.profile.peak();
+    return std::max(differences + of_light(of_tables, way.radius) + exact, farther);
 }
 
 void Ways::add_far(const Way &way, double time_s, const SharedFarLight &far,
@@ -235,13 +236,13 @@ void Ways::add_far(const Way &way, double time_s, const SharedFarLight &far,
                 2 * group_.densest * step.floor < negligible * budget_.error())
                 break;
             // A table ends somewhere.
-            const double tables_end = std::min({step.radius, far.radius, group_.reach});
-            const bool goes_on = drawing != FarDrawing::tables;
-            const double end = goes_on ? std::min(step.radius, group_.reach) : tables_end;
+            const double farthest = std::min(step.radius, group_.reach);
+            const double tables_end = std::min(farthest, far.radius);
+            const double end = drawing == FarDrawing::tables ? tables_end : farthest;
             if (drawing == FarDrawing::nearest && end <= tables_end)
                 continue;
             const double left =
-                std::max(step.floor, end < step.radius ? reach.brightest_beyond(end) : 0);
+                std::max(step.floor, end < farthest ? reach.brightest_beyond(end) : 0);
             const double from = std::min(std::max(step.halo, way.radius), end);
             if (end <= way.radius || colour_.profile.beyond(from) > budget_.flux)
                 continue;
@@ -252,9 +253,9 @@ void Ways::add_far(const Way &way, double time_s, const SharedFarLight &far,
             if (drawing == FarDrawing::own)
                 time += cost::making_far_light + cost::far_light(step.pixels, pixels(end)) +
                         cost::far_light(in_tables, pixels(tables_end));
-            const PixelError error = left_out(way, group_.densest * (left + off), from, left);
+            const double local = std::max(of_psf, group_.densest * (left + off));
             with.far = step.floor;
-            take({with, time_s + count() * time, {error.local + of_psf, error.mean}});
+            take({with, time_s + count() * time, left_out(way, local, from, left)});
         }
     }
 }
