@@ -31,31 +31,12 @@ std::vector<Corner> corners(const FarSource &source, const PupilEdges &edges) {
                 return corner;
         return all.emplace_back(Corner{x, y, w(x, y), per_pixel});
     };
-    for (size_t i = 0; i < edges.straight.size(); ++i) {
-        const auto &[x0, y0, x1, y1] = edges.straight[i];
-        const double length = std::hypot(x1 - x0, y1 - y0);
-        const double tx = (x1 - x0) / length, ty = (y1 - y0) / length;
-        Corner &from = at(x0, y0);
-        from.pieces.push_back({ty, -tx, tx, ty, 0});
-        from.straight.push_back(i);
-        Corner &to = at(x1, y1);
-        to.pieces.push_back({ty, -tx, -tx, -ty, 0});
-        to.straight.push_back(i);
-    }
-    for (const CurvedEdge &edge : edges.curved) {
-        if (edge.closed())
-            continue;
-        const Oval &o = edge.oval;
-        for (const bool at_begin : {true, false}) {
-            const double a = at_begin ? edge.begin : edge.end, u = std::cos(a), v = std::sin(a);
-            const double dx = -o.half_width * v, dy = o.half_height * u - o.shear * v;
-            const double speed = std::hypot(dx, dy), lit = edge.lit_inside ? 1 : -1;
-            const double onto = at_begin ? 1 : -1, tx = dx / speed, ty = dy / speed;
-            const double radius = std::pow(speed, 3) / (o.half_width * o.half_height);
-            at(o.x + o.half_width * u, o.y + o.shear * u + o.half_height * v)
-                .pieces.push_back(
-                    {lit * ty, -lit * tx, onto * tx, onto * ty, 2 * per_pixel * radius});
-        }
+    for (const EdgeEnd &end : edge_ends(edges)) {
+        Corner &corner = at(end.x, end.y);
+        const double rounding = end.is_curved ? 2 * per_pixel * std::abs(end.radius) : 0;
+        corner.pieces.push_back({end.nx, end.ny, end.tx, end.ty, rounding});
+        if (!end.is_curved)
+            corner.straight.push_back(end.edge);
     }
     std::erase_if(all, [](const Corner &corner) {
         if (corner.pieces.size() != 2)

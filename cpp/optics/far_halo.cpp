@@ -89,8 +89,9 @@ Halo::Halo(const FarSource &source, const PupilEdges &edges, const std::vector<R
         most_ = std::max(most_, light);
     }
     RimTable::close(table_);
-    const auto rounded = std::ranges::count_if(
-        junctions(edges), [](const Junction &junction) { return junction.kink < smooth_kink; });
+    const auto rounded = std::ranges::count_if(junctions(edges), [](const Junction &junction) {
+        return !junction.end.is_curved && junction.other.is_curved && junction.kink < smooth_kink;
+    });
     const auto sharp = 2 * static_cast<std::ptrdiff_t>(edges.straight.size()) - rounded;
     corners_ = static_cast<double>(sharp) * source.mean_wavelength(2) /
                (8 * std::pow(pi, 4) * source.pixel() * source.pixel() * source.area());

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace wfpsf {
 
@@ -36,19 +38,6 @@ FarSource far_source(const Optics &optics, const Light &light, const PsfSettings
 FarLight::FarLight(const Optics &optics, const Light &light, const PsfSettings &settings)
     : FarLight(far_source(optics, light, settings), pupil_edges(optics.aperture->parts())) {}
 
-// What the members are made from.
-struct FarLight::Parts {
-    Parts(const FarSource &source, const PupilEdges &edges)
-        : rims(rim_points(source, edges)),
-          visibility(std::make_shared<Visibility>(source, 1.1 * source.optics.aperture->diameter() *
-                                                              fringes_end * source.pixel())),
-          narrow(source, edges, *visibility, 6), middle(source, edges, *visibility, 9),
-          wide(source, edges, *visibility, 22, 3.5) {}
-    std::vector<RimPoint> rims;
-    std::shared_ptr<const Visibility> visibility;
-    EdgeColours narrow, middle, wide; // tables across
-};
-
 namespace {
 
 // Edges of about one direction, which the tables hold with what goes on from their ends.
@@ -59,21 +48,33 @@ bool together(const std::vector<Fringes> &tables, size_t a, size_t b) {
            });
 }
 
-PointFringes<RimPoint>::Known known_rims(const PupilEdges &edges,
-                                         const std::vector<Fringes> &tables) {
-    return [&, joined = junctions(edges)](size_t edge, const RimPoint &point) {
-        const auto &[from_x, from_y, to_x, to_y] = edges.straight[edge];
-        const auto at = point.position(to_y - from_y, from_x - to_x);
-        return std::ranges::any_of(joined, [&](const Junction &junction) {
-            const StraightEdge &other = edges.straight[junction.straight];
-            const double end_x = junction.at_to ? other.to_x : other.from_x;
-            const double end_y = junction.at_to ? other.to_y : other.from_y;
-            const Oval &o = point.oval;
-            return junction.kink < widest_kink && edges.curved[junction.curved].oval == o &&
-                   (at.x - o.x) * (end_x - o.x) + (at.y - o.y) * (end_y - o.y) >
-                       0 && // the same half
-                   together(tables, edge, junction.straight);
-        });
+// By straight edge the curved ones whose fringes with it the tables hold.
+using Arcs = std::vector<std::vector<size_t>>;
+Arcs arcs_in(const std::vector<Fringes> &tables, const PupilEdges &edges) {
+    Arcs arcs(edges.straight.size());
+    for (const ArcOnwards &arc : arcs_onwards(edges, widest_kink))
+        for (size_t edge = 0; edge < arcs.size(); ++edge)
+            if (together(tables, edge, arc.straight))
+                arcs[edge].push_back(arc.at.edge);
+    return arcs;
+}
+
+// For fringes with edges: rims as they are, and what is left of them without those arcs.
+std::vector<RimPoint> points_for_fringes(std::vector<RimPoint> points, const Arcs &arcs,
+                                         const FarSource &source, const PupilEdges &edges) {
+    for (size_t edge = 0; edge < arcs.size(); ++edge)
+        if (!arcs[edge].empty())
+            std::ranges::move(rim_points_without(arcs[edge], edge, source, edges),
+                              std::back_inserter(points));
+    return points;
+}
+
+PointFringes<RimPoint>::Known known_rims(const PupilEdges &edges, const Arcs &arcs) {
+    return [&](size_t edge, const RimPoint &point) {
+        if (point.edge)
+            return *point.edge != edge;
+        return std::ranges::any_of(
+            arcs[edge], [&](size_t arc) { return edges.curved[arc].oval == point.oval; });
     };
 }
 
@@ -86,15 +87,32 @@ PointFringes<Corner>::Known known_corners(const std::vector<Fringes> &tables) {
 
 } // namespace
 
+// What the members are made from.
+struct FarLight::Parts {
+    Parts(const FarSource &source, const PupilEdges &edges)
+        : rims(rim_points(source, edges)), spikes(make_spikes(source, edges)),
+          arcs(arcs_in(spikes.fringes, edges)),
+          visibility(std::make_shared<Visibility>(source, 1.1 * source.optics.aperture->diameter() *
+                                                              fringes_end * source.pixel())),
+          narrow(source, edges, *visibility, 6, 3.5), middle(source, edges, *visibility, 14, 3.5),
+          wide(source, edges, *visibility, 22, 3.5) {}
+    std::vector<RimPoint> rims;
+    Spikes spikes;
+    Arcs arcs; // of the spikes' tables
+    std::shared_ptr<const Visibility> visibility;
+    EdgeColours narrow, middle, wide; // tables across
+};
+
 FarLight::FarLight(const FarSource &source, const PupilEdges &edges)
     : FarLight(source, edges, Parts(source, edges)) {}
 
 FarLight::FarLight(const FarSource &source, const PupilEdges &edges, Parts parts)
     : nearest_(source.nearest), mirror_(source.settings.mirrored ? -1 : 1),
-      spikes_(make_spikes(source, edges)), halo_(source, edges, parts.rims),
+      spikes_(std::move(parts.spikes)), halo_(source, edges, parts.rims),
       edge_fringes_(source, parts.wide, parts.visibility, spikes_.fringes),
-      rim_fringes_(source, parts.middle, parts.visibility, std::move(parts.rims),
-                   known_rims(edges, spikes_.fringes)),
+      rim_fringes_(source, parts.middle, parts.visibility,
+                   points_for_fringes(std::move(parts.rims), parts.arcs, source, edges),
+                   known_rims(edges, parts.arcs)),
       corner_fringes_(source, parts.narrow, parts.visibility, corners(source, edges),
                       known_corners(spikes_.fringes)) {}
 

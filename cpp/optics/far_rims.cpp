@@ -6,6 +6,7 @@
 #include "optics/fresnel.hpp"
 
 #include <numbers>
+#include <span>
 
 namespace wfpsf {
 
@@ -18,6 +19,7 @@ struct Arc {
     double begin, end, outwards; // +1: the dark is outside
     bool closed;
     bool smooth_begin = false, smooth_end = false; // a straight edge goes on, with that end's light
+    std::vector<EdgeEnd> at_begin = {}, at_end = {}; // of straight edges that turn off there
 };
 
 struct Rim {
@@ -25,15 +27,22 @@ struct Rim {
     std::vector<Arc> arcs;
 };
 
-std::vector<Rim> rims(const PupilEdges &edges) {
+std::vector<Rim> rims(const PupilEdges &edges, const std::vector<size_t> &without = {}) {
     std::vector<Rim> out;
     const std::vector<Junction> joined = junctions(edges);
     for (size_t c = 0; c < edges.curved.size(); ++c) {
+        if (std::ranges::count(without, c) > 0)
+            continue;
         const CurvedEdge &edge = edges.curved[c];
         Arc arc{edge.begin, edge.end, edge.lit_inside ? 1.0 : -1.0, edge.closed()};
-        for (const Junction &junction : joined)
-            if (junction.curved == c && junction.kink < smooth_kink)
-                (junction.at_begin ? arc.smooth_begin : arc.smooth_end) = true;
+        for (const auto &[end, other, kink] : joined) {
+            if (!end.is_curved || end.edge != c || other.is_curved)
+                continue;
+            if (kink < smooth_kink)
+                (end.at_begin ? arc.smooth_begin : arc.smooth_end) = true;
+            else
+                (end.at_begin ? arc.at_begin : arc.at_end).push_back(other);
+        }
         auto rim = std::ranges::find_if(out, [&](const Rim &r) { return r.oval == edge.oval; });
         if (rim == out.end())
             rim = out.insert(out.end(), {edge.oval, {}});
@@ -97,10 +106,37 @@ struct Amplitudes {
     Distances re, im;
 };
 
+// Adds what edges send that turn off from an arc's end, x from the point by Fresnel's integral, as
+// far as it goes with the point's light; but none where tables of the edges' spikes have it, up to
+// `tables_end` across in units of k.
+WFPSF_VECTORISED void add_turned(std::span<const EdgeEnd> edges, const RimTable::Vector &u,
+                                 const Distances &k, double tables_end, const Distances &x,
+                                 Amplitudes &out) {
+    size_t first = 0; // the nearer, the smaller is x
+    while (first < x.size() && corner_share(std::abs(x[first])) == 1)
+        ++first;
+    for (const EdgeEnd &edge : edges) {
+        const double along = edge.tx * u.x + edge.ty * u.y;
+        const double sent = (edge.nx * u.x + edge.ny * u.y) / (2 * pi);
+        const double least = 0.01 * std::copysign(1.0, along); // nearer to the line tables have it
+        const double ratio = sent / (std::abs(along) < std::abs(least) ? least : along);
+        for (size_t j = first; j < x.size(); ++j) {
+            const double share = ratio / std::sqrt(k[j]) * (1 - within(along * k[j] / tables_end)) *
+                                 (1 - corner_share(std::abs(x[j])));
+            double cosine, sine;
+            phasor(x[j] * x[j] / 4, cosine, sine);
+            out.re[j] -= share * sine;
+            out.im[j] += share * cosine;
+        }
+    }
+}
+
 // Over exp(2 pi i (k place + waves)), times k^(3/2) 2 pi i; by distance from the farthest on.
-Amplitudes amplitudes(const Rim &rim, const Stationary &at, double side, const Distances &k) {
+Amplitudes amplitudes(const Rim &rim, const Stationary &at, const RimTable::Vector &u, double side,
+                      const Distances &k, double tables_end) {
     constexpr double endless = 100; // of Fresnel's integral
     Distances shift, per_radian, re{}, im{};
+    Amplitudes turned{};
     for (size_t j = 0; j < k.size(); ++j) {
         const double bend = k[j] * at.bend + at.w_bend;
         shift[j] = at.w_slope / bend;
@@ -121,12 +157,15 @@ Amplitudes amplitudes(const Rim &rim, const Stationary &at, double side, const D
             end.fill(endless);
         }
         add_seen(begin, arc.smooth_begin ? 0 : 1, end, arc.smooth_end ? 0 : 1, weight, re, im);
+        add_turned(arc.at_begin, u, k, tables_end, begin, turned);
+        add_turned(arc.at_end, u, k, tables_end, end, turned);
     }
     for (size_t j = 0; j < k.size(); ++j) {
         const double scale =
             side * at.speed * std::sqrt(k[j]) / (per_radian[j] * (1 + at.slope / k[j]));
-        re[j] *= scale;
-        im[j] *= k[j] * at.bend + at.w_bend < 0 ? -scale : scale;
+        const double sign = k[j] * at.bend + at.w_bend < 0 ? -1 : 1;
+        re[j] = scale * re[j] + sign * turned.re[j];
+        im[j] = sign * scale * im[j] + turned.im[j];
     }
     return {re, im};
 }
@@ -172,8 +211,9 @@ RimTable::Vector RimPoint::position(double ux, double uy) const {
 double RimPoint::most(double ux, double uy, double r, double reach) const {
     const auto at = RimTable::place(RimTable::row_of(ux, uy), RimTable::column_of(nearest / r));
     const auto width = static_cast<int>(reach / r * RimTable::directions / 4) + 1;
+    const int step = 1 + width / 16; // it does not change so fast
     double square = 0;
-    for (int i = -width; i <= width + 1; ++i)
+    for (int i = -width; i <= width + step; i += step)
         for (const int j : {at.column, at.column + 1}) {
             const int row = (at.row + i + RimTable::directions) % RimTable::directions;
             const size_t entry = RimTable::entry(row, j);
@@ -182,11 +222,14 @@ double RimPoint::most(double ux, double uy, double r, double reach) const {
     return std::sqrt(square);
 }
 
-std::vector<RimPoint> rim_points(const FarSource &source, const PupilEdges &edges) {
+namespace {
+
+std::vector<RimPoint> points_of(const std::vector<Rim> &rims, const FarSource &source) {
     std::vector<RimPoint> points;
     const double wavelength = source.mean_wavelength();
+    const double tables_end = source.fringe_reach() * source.pixel() / wavelength;
     const Wavefront w = source.wavefront(wavelength);
-    for (const Rim &rim : rims(edges))
+    for (const Rim &rim : rims)
         for (const double side : {1.0, -1.0}) {
             RimPoint point{rim.oval,
                            side,
@@ -199,15 +242,15 @@ std::vector<RimPoint> rim_points(const FarSource &source, const PupilEdges &edge
                 k[j] = RimTable::distance(static_cast<int>(j + 1), source.nearest) *
                        source.pixel() / wavelength;
             for (int i = 0; i < RimTable::directions; ++i) {
-                const auto [ux, uy] = RimTable::direction(i);
+                const RimTable::Vector u = RimTable::direction(i);
                 const Oval &o = rim.oval;
-                const double a = ux * o.half_width + uy * o.shear, b = uy * o.half_height;
+                const double a = u.x * o.half_width + u.y * o.shear, b = u.y * o.half_height;
                 if (!lit(rim, std::atan2(side * b, side * a)))
                     continue;
-                const Stationary at = stationary(rim.oval, w, ux, uy, side);
+                const Stationary at = stationary(rim.oval, w, u.x, u.y, side);
                 point.waves[static_cast<size_t>(i)] = at.waves;
                 const auto first = static_cast<std::ptrdiff_t>(RimTable::entry(i, 1));
-                const auto [re, im] = amplitudes(rim, at, side, k);
+                const auto [re, im] = amplitudes(rim, at, u, side, k, tables_end);
                 std::ranges::copy(re, point.re.begin() + first);
                 std::ranges::copy(im, point.im.begin() + first);
             }
@@ -216,6 +259,25 @@ std::vector<RimPoint> rim_points(const FarSource &source, const PupilEdges &edge
             point.waves.back() = point.waves.front();
             points.push_back(std::move(point));
         }
+    return points;
+}
+
+} // namespace
+
+std::vector<RimPoint> rim_points(const FarSource &source, const PupilEdges &edges) {
+    return points_of(rims(edges), source);
+}
+
+std::vector<RimPoint> rim_points_without(const std::vector<size_t> &curved, size_t straight,
+                                         const FarSource &source, const PupilEdges &edges) {
+    std::vector<Rim> left = rims(edges, curved);
+    std::erase_if(left, [&](const Rim &rim) {
+        return std::ranges::none_of(curved,
+                                    [&](size_t c) { return edges.curved[c].oval == rim.oval; });
+    });
+    std::vector<RimPoint> points = points_of(left, source);
+    for (RimPoint &point : points)
+        point.edge = straight;
     return points;
 }
 

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace wfpsf {
@@ -22,7 +23,7 @@ namespace wfpsf {
 
 // Where a table by direction and by sqrt(nearest / r) is read.
 struct RimTable {
-    static constexpr int directions = 1440, distances = 24;
+    static constexpr int directions = 1440, distances = 48;
     static constexpr ptrdiff_t columns = distances + 1;
     static constexpr size_t size = static_cast<size_t>(directions + 1) * columns;
 
@@ -93,6 +94,8 @@ struct RimPoint {
     double nearest;             // native pixels, of the tables
     std::vector<double> re, im; // by direction and distance
     std::vector<double> waves;  // wavefront there by direction, at the mean wavelength
+    // The straight edge that it makes fringes with; none: all, and it is part of the halo.
+    std::optional<size_t> edge = {};
 
     RimTable::Vector position(double ux, double uy) const; // m
     // Along (x, y), times its length.
@@ -120,8 +123,8 @@ struct RimPoint {
 
 // In pairs, the one in front first.
 std::vector<RimPoint> rim_points(const FarSource &source, const PupilEdges &edges);
-
-// Radians that an edge may turn by where a curved one goes on from it.
-inline constexpr double smooth_kink = 0.01;
+// Of the ovals of those curved edges, but without them, for one straight edge.
+std::vector<RimPoint> rim_points_without(const std::vector<size_t> &curved, size_t straight,
+                                         const FarSource &source, const PupilEdges &edges);
 
 } // namespace wfpsf

@@ -43,6 +43,7 @@ struct ArcEnd {
     double x, y;    // of the end, m
     double tangent; // +1: the edge runs along the axes' across, -1: against it
     double radius;  // of curvature; negative: the light is on the outside
+    double share;   // 1; -1 where one ends: what would go on from there is missing
     bool smooth;    // without a kink
     double waves;   // wavefront there, in the unit of the optics'
 };
@@ -80,14 +81,11 @@ class SpikeTables {
             colours_.push_back(colours(first));
         for (const StraightEdge &edge : edges.straight)
             edges_.push_back(edge_waves(edge));
-        for (const Junction &junction : junctions(edges)) {
-            EdgeWaves &edge = edges_[junction.straight];
-            const CurvedEdge &arc = edges.curved[junction.curved];
-            if (junction.kink < widest_kink)
-                edge.arcs.push_back(arc_end(arc, junction));
-            else
-                edge.corners.push_back(corner_end(edge, arc, junction));
-        }
+        for (const auto &[end, other, kink] : junctions(edges))
+            if (!end.is_curved && kink >= widest_kink)
+                edges_[end.edge].corners.push_back(corner_end(edges_[end.edge], other));
+        for (const ArcOnwards &arc : arcs_onwards(edges, widest_kink))
+            edges_[arc.straight].arcs.push_back(arc_end(edges_[arc.straight], arc));
         for (EdgeWaves &edge : edges_)
             for (const Colours &colours : colours_)
                 edge.samples.push_back(samples(edge, colours));
@@ -111,7 +109,6 @@ class SpikeTables {
     static constexpr std::ptrdiff_t filter_half = 20; // of the pixel's filter, steps
     static constexpr std::ptrdiff_t wide = half + 1 + filter_half;
     static constexpr double widest_group = 7 * pi / 180; // between neighbours in a group
-    static constexpr double smooth = 0.01;               // radians
 
     Colours colours(size_t first) const {
         const auto &[wavelength, weight] = source_.spectrum;
@@ -168,40 +165,29 @@ class SpikeTables {
         return out;
     }
 
-    // What an arc that turns off from the edge's end sends from there. It goes as the inverse of k,
-    // like the slope.
-    CornerEnd corner_end(const EdgeWaves &edge, const CurvedEdge &arc,
-                         const Junction &junction) const {
-        const Oval &o = arc.oval;
-        const double a = junction.at_begin ? arc.begin : arc.end;
-        const double u = std::cos(a), v = std::sin(a);
-        const double x = o.x + o.half_width * u, y = o.y + o.shear * u + o.half_height * v;
-        // Out of the lit side, and away from the corner.
-        const double way = arc.lit_inside ? 1 : -1, onwards = junction.at_begin ? 1 : -1;
-        const double dx = -o.half_width * v, dy = o.half_height * u - o.shear * v;
-        const double normal = way * edge.axes.along(dy, -dx);
-        const double tangent = onwards * edge.axes.along(dx, dy);
-        return {edge.axes.across(x - edge.x, y - edge.y), normal / tangent / (2 * pi),
-                source_.optics.wavefront(x, y)};
+    // What another edge that turns off from the edge's end sends from there. It goes as the inverse
+    // of k, like the slope.
+    CornerEnd corner_end(const EdgeWaves &edge, const EdgeEnd &other) const {
+        constexpr double least = 0.2; // where it turns back its spike is about the edge's own
+        const double normal = edge.axes.along(other.nx, other.ny);
+        const double tangent = edge.axes.along(other.tx, other.ty);
+        const double share =
+            std::abs(tangent) < least ? 0 : normal / tangent / (2 * std::numbers::pi);
+        return {edge.axes.across(other.x - edge.x, other.y - edge.y), share,
+                source_.optics.wavefront(other.x, other.y)};
     }
 
-    ArcEnd arc_end(const CurvedEdge &arc, const Junction &junction) const {
-        const Oval &o = arc.oval;
-        const double a = junction.at_begin ? arc.begin : arc.end;
-        const double u = std::cos(a), v = std::sin(a), way = junction.at_begin ? 1 : -1;
-        const double x = o.half_width * u, y = o.shear * u + o.half_height * v;
-        const double dx = -way * o.half_width * v;
-        const double dy = way * (o.half_height * u - o.shear * v);
-        const double speed = std::hypot(dx, dy), tangent = junction.at_to ? 1 : -1;
-        const SpikeAxes normal{tangent * dy / speed, -tangent * dx / speed};
-        const double radius = std::pow(speed, 3) / (o.half_width * o.half_height);
-        return {normal,
-                o.x + x,
-                o.y + y,
-                tangent,
-                std::copysign(radius, normal.along(x, y)),
-                junction.kink < smooth,
-                source_.optics.wavefront(o.x + x, o.y + y)};
+    ArcEnd arc_end(const EdgeWaves &edge, const ArcOnwards &arc) const {
+        const EdgeEnd &at = arc.at;
+        const double share = arc.ends ? -1 : 1;
+        return {{at.nx, at.ny},
+                at.x,
+                at.y,
+                std::copysign(1.0, share * edge.axes.across(at.tx, at.ty)),
+                at.radius,
+                share,
+                arc.kink < smooth_kink,
+                source_.optics.wavefront(at.x, at.y)};
     }
 
     // The pixel and the blur across a spike, for waves up to the bandwidth.
@@ -227,7 +213,7 @@ class SpikeTables {
         }
         return taps;
     }
-    double fringe_reach() const { return 96 * step_; }
+    double fringe_reach() const { return source_.fringe_reach(); }
     double mirror() const { return source_.settings.mirrored ? -1 : 1; }
 
     static std::vector<double> filtered(const std::vector<double> &values,
@@ -323,10 +309,18 @@ class SpikeTables {
             right = std::max(right, middle + e->length / 2);
         }
         const auto [blue, red] = std::ranges::minmax(source_.spectrum.wavelength);
-        constexpr double per_fringe = 10, most_fringes = 3.5, farthest = 1200, per_wave = 4.5;
+        constexpr double per_fringe = 10, most_fringes = 3.5, nearest_end = 60, farthest = 1200,
+                         per_wave = 4.5;
         const double per_pixel = std::max(high - low, 1e-3) * source_.pixel();
         const double along_step = std::min(20.0, blue / per_pixel / per_fringe);
-        const double end = std::min(farthest, most_fringes / (per_pixel * (1 / blue - 1 / red)));
+        // Beyond, an edge's spike would leave the table.
+        double turned = 0;
+        for (const EdgeWaves *e : group)
+            turned = std::max(turned, std::abs(out.axes_.across(e->axes.nx, e->axes.ny)));
+        constexpr double aside = 6; // native pixels
+        const double end = std::max(
+            nearest_end, std::min({farthest, most_fringes / (per_pixel * (1 / blue - 1 / red)),
+                                   aside / turned}));
         const double steps = std::clamp(
             std::floor(blue / ((right - left) * source_.pixel() * per_wave * step_)), 1.0, 4.0);
         const double step = steps * step_;
@@ -404,9 +398,9 @@ class SpikeTables {
                          {e->axes.across(x0, y0) / step_ + static_cast<double>(wide),
                           e->axes.across(dx, dy) / step_},
                          share, factor(e->axes), turns(e->x, e->y, 0), part);
+                if (group.size() == 1)
+                    end_part();
                 for (const ArcEnd &arc : e->arcs) {
-                    if (group.size() == 1)
-                        end_part();
                     const double normal = arc.axes.along(axes.nx, axes.ny) * along;
                     const bool conjugate = normal * arc.radius > 0;
                     Ramps x;
@@ -417,7 +411,7 @@ class SpikeTables {
                             (conjugate ? -1 : 1) * arc.tangent * per_metre[q] * std::sqrt(2 / bend);
                         x.start[q] = per_across * arc.axes.across(x0, y0);
                         x.step[q] = per_across * arc.axes.across(dx, dy);
-                        scale[q] = 1 / std::sqrt(2 * bend);
+                        scale[q] = arc.share / std::sqrt(2 * bend);
                     }
                     add_arc(x, conjugate, scale, factor(arc.axes), turns(arc.x, arc.y, arc.waves),
                             part);

@@ -30,6 +30,8 @@ struct FarSource {
     double pixel() const { return settings.pixel_scale; }
     // Cycles per native pixel that an intensity may hold.
     double bandwidth() const;
+    // How far across from a spike's line tables hold its fringes, native pixels: see within().
+    double fringe_reach() const { return 24 / std::max(1.0, bandwidth()); }
     // Mean of the wavelength's power.
     double mean_wavelength(int power = 1) const;
     Wavefront wavefront(double wavelength) const {
@@ -49,6 +51,9 @@ inline constexpr double same_direction = 0.25;
 // Radians that the outline may turn by at an edge's end for a curved edge beyond to belong to the
 // edge's spike.
 inline constexpr double widest_kink = 0.2;
+
+// And the same for it to be the edge's own end that goes on.
+inline constexpr double smooth_kink = 0.01;
 
 // No fringes with rims and corners from there on, native pixels.
 inline constexpr double fringes_end = 640;

@@ -147,11 +147,19 @@ EdgeColours::EdgeColours(const FarSource &source, const PupilEdges &edges,
     double longest = 0;
     for (const auto &[x, y, to_x, to_y] : edges.straight)
         longest = std::max(longest, std::hypot(to_x - x, to_y - y));
+    // Where the outline turns by little, ends send light together far across.
+    const auto goes_on = [joined = junctions(edges)](size_t edge) {
+        return std::ranges::any_of(joined, [edge](const Junction &junction) {
+            const auto &[end, other, kink] = junction;
+            return !end.is_curved && end.edge == edge && !other.is_curved && kink < widest_kink;
+        });
+    };
     for (size_t i = 0; i < edges.straight.size(); ++i) {
         const auto &[x, y, to_x, to_y] = edges.straight[i];
         const double length = std::hypot(to_x - x, to_y - y);
-        const double far =
-            std::ceil(reach * std::min(longest / length, widest) * per_across_) / per_across_;
+        const double longer =
+            std::min(goes_on(i) ? 2 * longest / length : longest / length, widest);
+        const double far = std::ceil(reach * longer * per_across_) / per_across_;
         const double turns = far * (response_.cycles.back() - response_.cycles.front());
         const int pieces = std::max(1, static_cast<int>(std::ceil(length * turns / most_turns)));
         for (int p = 0; p < pieces; ++p) {

@@ -196,28 +196,78 @@ PupilEdges pupil_edges(const std::vector<LitPart> &parts) {
     return edges;
 }
 
+std::vector<EdgeEnd> edge_ends(const PupilEdges &edges) {
+    std::vector<EdgeEnd> ends;
+    const auto add = [&](bool is_curved, size_t edge, bool at_begin, Point p, Point forward,
+                         double lit, double radius) {
+        const double speed = std::hypot(forward.x, forward.y), onto = at_begin ? 1 : -1;
+        const double tx = forward.x / speed, ty = forward.y / speed;
+        ends.push_back({is_curved, edge, at_begin, p.x, p.y, lit * ty, -lit * tx, onto * tx,
+                        onto * ty, lit * radius});
+    };
+    for (size_t i = 0; i < edges.straight.size(); ++i) {
+        const auto &[x0, y0, x1, y1] = edges.straight[i];
+        const Point forward{x1 - x0, y1 - y0};
+        add(false, i, true, {x0, y0}, forward, 1, INFINITY);
+        add(false, i, false, {x1, y1}, forward, 1, INFINITY);
+    }
+    for (size_t i = 0; i < edges.curved.size(); ++i) {
+        const CurvedEdge &edge = edges.curved[i];
+        if (edge.closed())
+            continue;
+        const Oval &o = edge.oval;
+        for (const bool at_begin : {true, false}) {
+            const double angle = at_begin ? edge.begin : edge.end;
+            const Point forward = slope(o, angle);
+            const double speed = std::hypot(forward.x, forward.y);
+            add(true, i, at_begin, at(o, angle), forward, edge.lit_inside ? 1 : -1,
+                std::pow(speed, 3) / (o.half_width * o.half_height));
+        }
+    }
+    return ends;
+}
+
 std::vector<Junction> junctions(const PupilEdges &edges) {
     constexpr double together = 1e-5; // m
+    const std::vector<EdgeEnd> ends = edge_ends(edges);
     std::vector<Junction> out;
-    for (size_t c = 0; c < edges.curved.size(); ++c)
-        for (const bool at_begin : {true, false}) {
-            const CurvedEdge &curved = edges.curved[c];
-            if (curved.closed())
+    for (const EdgeEnd &end : ends)
+        for (const EdgeEnd &other : ends) {
+            if (&end == &other || std::hypot(end.x - other.x, end.y - other.y) >= together)
                 continue;
-            const double angle = at_begin ? curved.begin : curved.end;
-            const Point p = at(curved.oval, angle), s = slope(curved.oval, angle);
-            for (size_t l = 0; l < edges.straight.size(); ++l) {
-                const auto &[from_x, from_y, to_x, to_y] = edges.straight[l];
-                const bool at_to = std::hypot(p.x - to_x, p.y - to_y) < together;
-                if (!at_to && std::hypot(p.x - from_x, p.y - from_y) >= together)
-                    continue;
-                const double onwards = at_to == at_begin ? 1 : -1;
-                const double x = onwards * (to_x - from_x), y = onwards * (to_y - from_y);
-                const double kink = std::abs(std::atan2(x * s.y - y * s.x, x * s.x + y * s.y));
-                out.push_back({l, c, at_to, at_begin, kink});
-            }
+            const double along = end.tx * other.tx + end.ty * other.ty;
+            const double across = end.tx * other.ty - end.ty * other.tx;
+            out.push_back({end, other, std::abs(std::atan2(across, -along))});
         }
     return out;
+}
+
+std::vector<ArcOnwards> arcs_onwards(const PupilEdges &edges, double widest) {
+    const std::vector<Junction> joined = junctions(edges);
+    std::vector<ArcOnwards> arcs;
+    for (const auto &[straight, first, kink] : joined) {
+        if (straight.is_curved || !first.is_curved || kink >= widest)
+            continue;
+        arcs.push_back({straight.edge, first, false, kink});
+        for (const EdgeEnd *arc = &first; arc != nullptr;) {
+            const auto farther = std::ranges::find_if(joined, [&](const Junction &junction) {
+                const EdgeEnd &end = junction.end;
+                return end.is_curved && end.edge == arc->edge && end.at_begin != arc->at_begin;
+            });
+            arc = nullptr;
+            if (farther == joined.end())
+                break;
+            const auto &[end, other, turn] = *farther;
+            if (std::abs(end.nx * straight.tx + end.ny * straight.ty) >= widest)
+                break;
+            arcs.push_back({straight.edge, end, true, INFINITY});
+            if (!other.is_curved || turn >= widest)
+                break;
+            arc = &other;
+            arcs.push_back({straight.edge, other, false, INFINITY});
+        }
+    }
+    return arcs;
 }
 
 } // namespace wfpsf

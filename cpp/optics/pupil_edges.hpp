@@ -28,13 +28,34 @@ struct PupilEdges {
     std::vector<CurvedEdge> curved;
 };
 
-// Where a curved edge goes on from an end of a straight one.
+// Where an edge begins or ends that is not closed.
+struct EdgeEnd {
+    bool is_curved;
+    size_t edge;   // of its kind
+    bool at_begin; // of a straight one: `from`
+    double x, y;   // m
+    double nx, ny; // outward normal
+    double tx, ty; // onto the edge
+    double radius; // of curvature, m; below 0 if the lit side is outside, without end if straight
+};
+std::vector<EdgeEnd> edge_ends(const PupilEdges &edges);
+
+// Ends of two edges in one place: each pair twice, in either order.
 struct Junction {
-    size_t straight, curved;
-    bool at_to, at_begin; // which end of either
-    double kink;          // radians that the edge turns by, 0..pi
+    EdgeEnd end, other;
+    double kink; // radians that the outline turns by, 0..pi
 };
 std::vector<Junction> junctions(const PupilEdges &edges);
+
+// Arcs that go on from a straight edge where the outline turns by less than `widest`: of each its
+// beginning, and where it has turned by little when it ends its end, and what goes on from there.
+struct ArcOnwards {
+    size_t straight;
+    EdgeEnd at;
+    bool ends;   // there
+    double kink; // from the straight edge to the first arc; of others none is known
+};
+std::vector<ArcOnwards> arcs_onwards(const PupilEdges &edges, double widest);
 
 PupilEdges pupil_edges(const std::vector<LitPart> &parts);
 

@@ -24,7 +24,7 @@ double of_model(double eps) {
     return eps > 5e-4 ? 0.2 : 0.1;
 }
 double of_far(double radius) {
-    return std::clamp(40 / radius, 0.45, 0.65);
+    return std::clamp(25 / radius, 0.25, 0.5);
 }
 
 // Tables of far light are that share of the light off, and more, the more it differs from place to
