@@ -25,13 +25,18 @@ size_t ring_of(double r) {
 
 } // namespace
 
-EdgeFringes::EdgeFringes(const FarSource &source, const EdgeColours &colours,
-                         std::shared_ptr<const Visibility> visibility,
+EdgeFringes::EdgeFringes(const FarSource &source, const PupilEdges &edges,
+                         const EdgeColours &colours, std::shared_ptr<const Visibility> visibility,
                          const std::vector<Fringes> &tables)
     : visibility_(std::move(visibility)), pixel_(source.pixel()),
       scale_(1 / (2 * std::numbers::pi * std::numbers::pi * source.area())),
       per_across_(colours.per_across()) {
     const double mean = 1 / source.mean_wavelength();
+    const auto meet = [joined = junctions(edges)](size_t a, size_t b) {
+        return std::ranges::any_of(joined, [&](const Junction &junction) {
+            return goes_on(junction) && junction.end.edge == a && junction.other.edge == b;
+        });
+    };
     for (const Fringes &table : tables) {
         if (!(table.end() < farthest))
             continue;
@@ -50,19 +55,24 @@ EdgeFringes::EdgeFringes(const FarSource &source, const EdgeColours &colours,
                     wave.re[m] *= scale;
                     wave.im[m] *= scale;
                 }
-            for (const Member &other : group.members) {
-                if (other.edge.straight == edge.straight)
-                    continue;
-                const double end = end_of(group, edge, other.edge);
-                group.end = std::max(group.end, end);
-                for (const EdgeColours::Edge *e : {&edge, &other.edge}) {
-                    const double turned = std::abs(group.axes.across(e->axes.nx, e->axes.ny));
-                    group.reach = std::max(group.reach, e->reach + turned * end);
-                }
-                group.pairs.push_back({static_cast<size_t>(&other - group.members.data()),
-                                       group.members.size(), end});
-            }
             group.members.emplace_back(colours, i, std::move(waves));
+            for (size_t other = 0; other + 1 < group.members.size(); ++other) {
+                const EdgeColours::Edge &with = group.members[other].edge;
+                if (with.straight == edge.straight)
+                    continue;
+                const bool wide = meet(edge.straight, with.straight);
+                Pair pair{other, group.members.size() - 1, wide ? with.reach : with.usual,
+                          wide ? edge.reach : edge.usual};
+                pair.end = end_of(group, pair);
+                group.end = std::max(group.end, pair.end);
+                const auto widen = [&](const EdgeColours::Edge &of, double reach) {
+                    const double turned = std::abs(group.axes.across(of.axes.nx, of.axes.ny));
+                    group.reach = std::max(group.reach, reach + turned * pair.end);
+                };
+                widen(with, pair.first_reach);
+                widen(edge, pair.second_reach);
+                group.pairs.push_back(std::move(pair));
+            }
         }
         for (Pair &pair : group.pairs) {
             for (size_t j = 0; ring(j) < pair.end; ++j)
@@ -112,13 +122,14 @@ double EdgeFringes::Pair::end_above(double floor) const {
 }
 
 // Where the fringes of two edges are faint, or their light is apart.
-double EdgeFringes::end_of(const Group &group, const EdgeColours::Edge &a,
-                           const EdgeColours::Edge &b) const {
+double EdgeFringes::end_of(const Group &group, const Pair &pair) const {
+    const EdgeColours::Edge &a = group.members[pair.first].edge,
+                            &b = group.members[pair.second].edge;
     constexpr double faint = 4e-3; // as a share of the edges' own light
     const double path = pixel_ * std::abs(group.axes.along(a.x - b.x, a.y - b.y));
     const double turned = std::abs(a.axes.across(b.axes.nx, b.axes.ny));
-    const double last =
-        std::min({farthest, visibility_->longest_path() / path, (a.reach + b.reach) / turned});
+    const double last = std::min({farthest, visibility_->longest_path() / path,
+                                  (pair.first_reach + pair.second_reach) / turned});
     double end = group.begin;
     while (end < last && visibility_->most(path * end) > faint)
         end *= 1.1;
@@ -129,7 +140,7 @@ double EdgeFringes::end_of(const Group &group, const EdgeColours::Edge &a,
 double EdgeFringes::most(const Group &group, const Pair &pair, double r) const {
     const Member &a = group.members[pair.first], &b = group.members[pair.second];
     double most = 0;
-    const auto half = static_cast<int>(2 * a.edge.reach);
+    const auto half = static_cast<int>(2 * pair.first_reach);
     for (const double side : {-1.0, 1.0})
         for (int k = -half; k <= half; ++k) {
             const double aside = k / 2.0;
@@ -149,6 +160,7 @@ namespace {
 
 struct PairTable {
     const EdgeColours::Edge &a, &b;
+    double reach_a, reach_b;
     const ColourWaves *waves_a, *waves_b; // one step before the position -reach
     const ColourWaves *visibility;
     double per_path, longest, middle;
@@ -184,7 +196,7 @@ WFPSF_VECTORISED void add_pair(const PairTable &pair, double weight, double x0, 
         double cosine, sine;
         phasor(path * pair.middle, cosine, sine);
         light[i] += weight * pair.scale * a.axes.along(x, y) * b.axes.along(x, y) / (r2 * r2) *
-                    within(across_a / a.reach) * within(across_b / b.reach) *
+                    within(across_a / pair.reach_a) * within(across_b / pair.reach_b) *
                     (sum_re * cosine - sum_im * sine);
     }
 }
@@ -213,21 +225,22 @@ void EdgeFringes::add(const PixelRow &row, double floor) const {
                     continue;
                 const Member &a = group.members[pair.first], &b = group.members[pair.second];
                 const double share = floor / pair.most[ring_of(nearest)];
-                const auto near = [&](Run of, const Member &member) {
+                const auto near = [&](Run of, const Member &member, double farthest_across) {
                     const SpikeAxes &axes = member.edge.axes;
-                    const double reach = member.reach(share);
+                    const double reach = std::min(member.reach(share), farthest_across);
                     return between(of, axes.across(row.x, row.y), -axes.ny, -reach, reach);
                 };
                 const Run seen =
                     between(run, group.axes.along(row.x, row.y), group.axes.nx, -end, end);
-                const Run both = near(near(seen, a), b);
+                const Run both = near(near(seen, a, pair.first_reach), b, pair.second_reach);
                 if (both.first > both.last)
                     continue;
                 const PixelRow::Part part = row.part(both);
                 for (const int sample : {-1, 1}) {
                     const double aside = sample * group.aside;
-                    add_pair({a.edge, b.edge, a.waves.data() + 1, b.waves.data() + 1,
-                              visibility_->table(), visibility_->per_path(), visibility_->longest(),
+                    add_pair({a.edge, b.edge, pair.first_reach, pair.second_reach,
+                              a.waves.data() + 1, b.waves.data() + 1, visibility_->table(),
+                              visibility_->per_path(), visibility_->longest(),
                               visibility_->middle(), pixel_, scale_, per_across_},
                              0.5, part.x - aside * group.axes.ny, part.y + aside * group.axes.nx,
                              part.light.size(), part.light.data());

@@ -11,7 +11,7 @@ namespace wfpsf {
 
 class EdgeFringes {
   public:
-    EdgeFringes(const FarSource &source, const EdgeColours &colours,
+    EdgeFringes(const FarSource &source, const PupilEdges &edges, const EdgeColours &colours,
                 std::shared_ptr<const Visibility> visibility, const std::vector<Fringes> &tables);
 
     // Adds fractions of the light, where they may be above the floor.
@@ -35,9 +35,10 @@ class EdgeFringes {
         std::vector<double> outwards_;  // the largest so many half pixels or more off the middle
     };
     struct Pair {
-        size_t first, second;          // members
-        double end;                    // native pixels; from there on its fringes are faint
-        std::vector<double> most = {}; // from each ring on
+        size_t first, second;             // members
+        double first_reach, second_reach; // across, native pixels
+        double end = 0;                   // native pixels; from there on its fringes are faint
+        std::vector<double> most = {};    // from each ring on
         // From there on it is fainter.
         double end_above(double floor) const;
     };
@@ -49,7 +50,7 @@ class EdgeFringes {
         std::vector<Member> members = {};
         std::vector<Pair> pairs = {};
     };
-    double end_of(const Group &group, const EdgeColours::Edge &a, const EdgeColours::Edge &b) const;
+    double end_of(const Group &group, const Pair &pair) const;
     double most(const Group &group, const Pair &pair, double r) const;
 
     std::shared_ptr<const Visibility> visibility_;

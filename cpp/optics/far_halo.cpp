@@ -18,7 +18,7 @@ constexpr double pi = std::numbers::pi;
 
 // What a rim's point sends in one direction, by distance from the farthest on.
 struct Ray {
-    const double *re, *im;
+    const float *re, *im;
     double place, waves;
     bool dark() const {
         return std::ranges::all_of(std::array{0, RimTable::distances - 1},
@@ -36,7 +36,7 @@ struct Coherence {
 WFPSF_VECTORISED void add_fringes(const Ray &a, const Ray &b, const Coherence &coherence,
                                   const Distances &distance, double *light) {
     const double apart = a.place - b.place, waves = a.waves - b.waves;
-    const double *a_re = a.re, *a_im = a.im, *b_re = b.re, *b_im = b.im;
+    const float *a_re = a.re, *a_im = a.im, *b_re = b.re, *b_im = b.im;
     const auto [turns, fade] = coherence;
     constexpr double most = 36; // what is left is rounding
     size_t first = 0;
@@ -62,13 +62,15 @@ Halo::Halo(const FarSource &source, const PupilEdges &edges, const std::vector<R
         spread += source.spectrum.weight[q] *
                   std::pow(1 / source.spectrum.wavelength[q] - 1 / wavelength, 2);
     const Coherence coherence{1 / wavelength, 2 * pi * pi * spread};
+    // Over (k / r)^3.
+    const double scale = wavelength / (source.pixel() * source.area() * 4 * pi * pi);
     Distances distance;
     for (size_t j = 0; j < distance.size(); ++j)
         distance[j] = source.pixel() * RimTable::distance(static_cast<int>(j + 1), nearest_);
     for (int i = 0; i < RimTable::directions; ++i) {
         const auto [ux, uy] = RimTable::direction(i);
         const size_t first = RimTable::entry(i, 1);
-        double *light = table_.data() + first;
+        Distances light{};
         std::vector<Ray> rays;
         for (const RimPoint &point : points) {
             const Ray ray{point.re.data() + first, point.im.data() + first, point.place(ux, uy),
@@ -78,15 +80,13 @@ Halo::Halo(const FarSource &source, const PupilEdges &edges, const std::vector<R
             for (size_t j = 0; j < distance.size(); ++j)
                 light[j] += ray.re[j] * ray.re[j] + ray.im[j] * ray.im[j];
             for (const Ray &other : rays)
-                add_fringes(ray, other, coherence, distance, light);
+                add_fringes(ray, other, coherence, distance, light.data());
             rays.push_back(ray);
         }
-    }
-    // Over (k / r)^3.
-    const double scale = wavelength / (source.pixel() * source.area() * 4 * pi * pi);
-    for (double &light : table_) {
-        light *= scale;
-        most_ = std::max(most_, light);
+        for (size_t j = 0; j < distance.size(); ++j) {
+            table_[first + j] = static_cast<float>(scale * light[j]);
+            most_ = std::max(most_, scale * light[j]);
+        }
     }
     RimTable::close(table_);
     const auto rounded = std::ranges::count_if(junctions(edges), [](const Junction &junction) {
@@ -101,7 +101,7 @@ namespace {
 
 struct HaloTable {
     double nearest, corners;
-    const double *table;
+    const float *table;
 };
 
 WFPSF_VECTORISED void add_halo(const HaloTable &halo, double x0, double y, size_t n,

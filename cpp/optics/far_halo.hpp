@@ -21,8 +21,8 @@ class Halo {
 
   private:
     double nearest_, most_ = 0;
-    double corners_;            // light of the edges' ends between the spikes, times r^4
-    std::vector<double> table_; // light times the cube of the distance
+    double corners_;           // light of the edges' ends between the spikes, times r^4
+    std::vector<float> table_; // light times the cube of the distance
 };
 
 } // namespace wfpsf

@@ -56,10 +56,11 @@ typename PointFringes<Point>::Edge PointFringes<Point>::edge(const EdgeColours &
         if (known(out.edge.straight, points_[p]))
             continue;
         const auto [x, y] = points_[p].position(nx, ny);
-        out.waves.push_back(colours.waves(i, x, y));
-        const double brightest = wfpsf::most(out.waves.back());
+        std::vector<ColourWaves> waves = colours.waves(i, x, y);
+        const double brightest = wfpsf::most(waves);
+        bool is_seen = false;
         for (const size_t side : {0, 1}) {
-            Pair pair{seen_from(p, side, points_[p]), out.waves.size() - 1, {}};
+            Pair pair{seen_from(p, side, points_[p]), out.waves.size(), {}};
             for (const double r : std::span(rings_).first(rings_.size() - 1)) {
                 const double here = brightest * most(out.edge, pair.point, side, r);
                 const double own = scale_ / 2 * std::pow(out.edge.length / r, 2);
@@ -68,9 +69,13 @@ typename PointFringes<Point>::Edge PointFringes<Point>::edge(const EdgeColours &
             pair.most.push_back(0);
             for (size_t j = pair.most.size() - 1; j-- > 0;)
                 pair.most[j] = std::max(pair.most[j], pair.most[j + 1]);
-            if (pair.most[0] > 0)
+            if (pair.most[0] > 0) {
                 out.pairs[side].push_back(std::move(pair));
+                is_seen = true;
+            }
         }
+        if (is_seen)
+            out.waves.push_back(std::move(waves));
     }
     return out;
 }
@@ -78,12 +83,11 @@ typename PointFringes<Point>::Edge PointFringes<Point>::edge(const EdgeColours &
 template <class Point>
 double PointFringes<Point>::most(const EdgeColours::Edge &edge, size_t p, size_t side,
                                  double r) const {
-    const auto &[axes, x, y, length, straight, reach] = edge;
-    const double way = side == 0 ? 1 : -1, ux = way * axes.nx, uy = way * axes.ny;
+    const double way = side == 0 ? 1 : -1, ux = way * edge.axes.nx, uy = way * edge.axes.ny;
     const Point &point = points_[p];
-    const double path = std::abs(way * axes.along(x, y) - point.place(ux, uy)) * r -
-                        length * reach; // to the spike's sides
-    return scale_ * point.most(ux, uy, r, reach) * visibility_->most(path * pixel_) /
+    const double path = std::abs(way * edge.axes.along(edge.x, edge.y) - point.place(ux, uy)) * r -
+                        edge.length * edge.reach; // to the spike's sides
+    return scale_ * point.most(ux, uy, r, edge.reach) * visibility_->most(path * pixel_) /
            (r * r * std::sqrt(r * pixel_ / wavelength_));
 }
 

@@ -195,7 +195,7 @@ RimTable::Vector RimTable::direction(int i) {
     }
 }
 
-void RimTable::close(std::vector<double> &table) {
+void RimTable::close(std::vector<float> &table) {
     for (int i = 0; i < directions; ++i)
         table[entry(i, 0)] = table[entry(i, 1)];
     std::copy_n(table.begin(), columns, table.end() - columns);
@@ -217,7 +217,7 @@ double RimPoint::most(double ux, double uy, double r, double reach) const {
         for (const int j : {at.column, at.column + 1}) {
             const int row = (at.row + i + RimTable::directions) % RimTable::directions;
             const size_t entry = RimTable::entry(row, j);
-            square = std::max(square, re[entry] * re[entry] + im[entry] * im[entry]);
+            square = std::max<double>(square, re[entry] * re[entry] + im[entry] * im[entry]);
         }
     return std::sqrt(square);
 }
@@ -234,8 +234,8 @@ std::vector<RimPoint> points_of(const std::vector<Rim> &rims, const FarSource &s
             RimPoint point{rim.oval,
                            side,
                            source.nearest,
-                           std::vector<double>(RimTable::size),
-                           std::vector<double>(RimTable::size),
+                           std::vector<float>(RimTable::size),
+                           std::vector<float>(RimTable::size),
                            std::vector<double>(RimTable::directions + 1)};
             Distances k;
             for (size_t j = 0; j < k.size(); ++j)
@@ -251,8 +251,9 @@ std::vector<RimPoint> points_of(const std::vector<Rim> &rims, const FarSource &s
                 point.waves[static_cast<size_t>(i)] = at.waves;
                 const auto first = static_cast<std::ptrdiff_t>(RimTable::entry(i, 1));
                 const auto [re, im] = amplitudes(rim, at, u, side, k, tables_end);
-                std::ranges::copy(re, point.re.begin() + first);
-                std::ranges::copy(im, point.im.begin() + first);
+                const auto stored = [](double value) { return static_cast<float>(value); };
+                std::ranges::transform(re, point.re.begin() + first, stored);
+                std::ranges::transform(im, point.im.begin() + first, stored);
             }
             RimTable::close(point.re);
             RimTable::close(point.im);

@@ -36,13 +36,13 @@ struct RimTable {
     }
     static size_t entry(int i, int j) { return static_cast<size_t>(i * columns + j); }
     // The direction and distance that bound the first row and column alike.
-    static void close(std::vector<double> &table);
+    static void close(std::vector<float> &table);
 
     struct Place {
         int32_t row, column;
         double s, t; // from there to the next ones
-        [[gnu::always_inline]] double of(const double *table) const {
-            const double *entry = table + row * columns + column;
+        [[gnu::always_inline]] double of(const float *table) const {
+            const float *entry = table + row * columns + column;
             const double low = entry[0] + t * (entry[1] - entry[0]);
             entry += columns;
             const double high = entry[0] + t * (entry[1] - entry[0]);
@@ -90,10 +90,10 @@ struct AmplitudeBlock {
 // squared over (2 pi)^2; k = r / wavelength, in cycles per metre.
 struct RimPoint {
     Oval oval;
-    double side;                // +1: in front, -1: behind
-    double nearest;             // native pixels, of the tables
-    std::vector<double> re, im; // by direction and distance
-    std::vector<double> waves;  // wavefront there by direction, at the mean wavelength
+    double side;               // +1: in front, -1: behind
+    double nearest;            // native pixels, of the tables
+    std::vector<float> re, im; // by direction and distance
+    std::vector<double> waves; // wavefront there by direction, at the mean wavelength
     // The straight edge that it makes fringes with; none: all, and it is part of the halo.
     std::optional<size_t> edge = {};
 

@@ -98,7 +98,7 @@ class SpikeTables {
         for (const EdgeWaves &edge : edges_)
             if (!edge.arcs.empty())
                 out.fringes.push_back(fringes({&edge}));
-        for (const std::vector<const EdgeWaves *> &group : groups())
+        for (const Group &group : groups())
             if (group.size() > 1)
                 out.fringes.push_back(fringes(group));
         return out;
@@ -263,16 +263,17 @@ class SpikeTables {
         return out;
     }
 
-    std::vector<std::vector<const EdgeWaves *>> groups() const {
+    using Group = std::vector<const EdgeWaves *>;
+    std::vector<Group> groups() const {
         const auto direction = [](const EdgeWaves *e) {
             const double a = std::atan2(e->axes.ny, e->axes.nx);
             return a < 0 ? a + pi : a;
         };
-        std::vector<const EdgeWaves *> sorted;
+        Group sorted;
         for (const EdgeWaves &edge : edges_)
             sorted.push_back(&edge);
         std::ranges::sort(sorted, {}, direction);
-        std::vector<std::vector<const EdgeWaves *>> groups;
+        std::vector<Group> groups;
         for (const EdgeWaves *edge : sorted) {
             if (groups.empty() || direction(edge) - direction(groups.back().back()) > widest_group)
                 groups.emplace_back();
@@ -288,16 +289,30 @@ class SpikeTables {
         return groups;
     }
 
-    Fringes fringes(const std::vector<const EdgeWaves *> &group) const {
-        Fringes out;
+    // Of their lines, long edges' counting most.
+    static SpikeAxes mean_axes(const Group &group) {
         double nx = 0, ny = 0;
         for (const EdgeWaves *e : group) {
-            out.members_.push_back(static_cast<size_t>(e - edges_.data()));
             const double side = e->axes.nx * group[0]->axes.nx + e->axes.ny * group[0]->axes.ny;
             nx += std::copysign(e->length, side) * e->axes.nx;
             ny += std::copysign(e->length, side) * e->axes.ny;
         }
-        out.axes_ = {nx / std::hypot(nx, ny), ny / std::hypot(nx, ny)};
+        return {nx / std::hypot(nx, ny), ny / std::hypot(nx, ny)};
+    }
+
+    // The distance from which on the middle of an edge's spike leaves the table.
+    double leaves(const EdgeWaves &edge, const SpikeAxes &axes) const {
+        constexpr double least = 4; // native pixels
+        const double half_width = source_.mean_wavelength() / (source_.pixel() * edge.length);
+        const double aside = std::max(least, 2.0 / 3 * fringe_reach() - half_width);
+        return aside / std::abs(axes.across(edge.axes.nx, edge.axes.ny));
+    }
+
+    Fringes fringes(const Group &group) const {
+        Fringes out;
+        for (const EdgeWaves *e : group)
+            out.members_.push_back(static_cast<size_t>(e - edges_.data()));
+        out.axes_ = mean_axes(group);
         // How far the group reaches along the spike and across it, in the pupil.
         double low = 1e9, high = -1e9, left = 1e9, right = -1e9;
         for (const EdgeWaves *e : group) {
@@ -313,14 +328,9 @@ class SpikeTables {
                          per_wave = 4.5;
         const double per_pixel = std::max(high - low, 1e-3) * source_.pixel();
         const double along_step = std::min(20.0, blue / per_pixel / per_fringe);
-        // Beyond, an edge's spike would leave the table.
-        double turned = 0;
+        double end = std::min(farthest, most_fringes / (per_pixel * (1 / blue - 1 / red)));
         for (const EdgeWaves *e : group)
-            turned = std::max(turned, std::abs(out.axes_.across(e->axes.nx, e->axes.ny)));
-        constexpr double aside = 6; // native pixels
-        const double end = std::max(
-            nearest_end, std::min({farthest, most_fringes / (per_pixel * (1 / blue - 1 / red)),
-                                   aside / turned}));
+            end = std::max(nearest_end, std::min(end, leaves(*e, out.axes_)));
         const double steps = std::clamp(
             std::floor(blue / ((right - left) * source_.pixel() * per_wave * step_)), 1.0, 4.0);
         const double step = steps * step_;
@@ -358,8 +368,8 @@ class SpikeTables {
 
     // Light at -reach..reach steps across beyond the sum of the members', times the distance's
     // square.
-    std::vector<double> together(const std::vector<const EdgeWaves *> &group, const SpikeAxes &axes,
-                                 double along, std::ptrdiff_t reach, double step) const {
+    std::vector<double> together(const Group &group, const SpikeAxes &axes, double along,
+                                 std::ptrdiff_t reach, double step) const {
         const auto n = static_cast<size_t>(2 * reach + 1);
         const double first = -static_cast<double>(reach) * step;
         const double x0 = axes.nx * along - axes.ny * first, y0 = axes.ny * along + axes.nx * first;

@@ -135,7 +135,7 @@ double Visibility::most(double path) const {
 }
 
 EdgeColours::EdgeColours(const FarSource &source, const PupilEdges &edges,
-                         const Visibility &visibility, double reach, double widest)
+                         const Visibility &visibility, double reach, double widest, double onwards)
     : per_across_(2 * std::max(1.0, source.bandwidth())) {
     const auto &[xx, xy, yy] = source.settings.blur;
     response_ = {{xx, source.settings.mirrored ? -xy : xy, yy},
@@ -147,21 +147,25 @@ EdgeColours::EdgeColours(const FarSource &source, const PupilEdges &edges,
     double longest = 0;
     for (const auto &[x, y, to_x, to_y] : edges.straight)
         longest = std::max(longest, std::hypot(to_x - x, to_y - y));
-    // Where the outline turns by little, ends send light together far across.
-    const auto goes_on = [joined = junctions(edges)](size_t edge) {
-        return std::ranges::any_of(joined, [edge](const Junction &junction) {
-            const auto &[end, other, kink] = junction;
-            return !end.is_curved && end.edge == edge && !other.is_curved && kink < widest_kink;
-        });
+    const std::vector<Junction> joined = junctions(edges);
+    const auto reaches = [&](double times) {
+        return std::ceil(reach * std::min(times, widest) * per_across_) / per_across_;
     };
     for (size_t i = 0; i < edges.straight.size(); ++i) {
         const auto &[x, y, to_x, to_y] = edges.straight[i];
         const double length = std::hypot(to_x - x, to_y - y);
-        const double longer =
-            std::min(goes_on(i) ? 2 * longest / length : longest / length, widest);
-        const double far = std::ceil(reach * longer * per_across_) / per_across_;
-        const double turns = far * (response_.cycles.back() - response_.cycles.front());
-        const int pieces = std::max(1, static_cast<int>(std::ceil(length * turns / most_turns)));
+        const bool is_joined = std::ranges::any_of(joined, [i](const Junction &junction) {
+            return junction.end.edge == i && goes_on(junction);
+        });
+        const double turns = length * (response_.cycles.back() - response_.cycles.front());
+        const auto pieces_for = [&](double across) {
+            return std::max(1, static_cast<int>(std::ceil(turns * across / most_turns)));
+        };
+        const double usual = reaches(longest / length);
+        double far = is_joined ? reaches(onwards * longest / length) : usual;
+        const int pieces = pieces_for(usual);
+        while (pieces_for(far) > pieces) // that would cost more than it is worth
+            far -= 1 / per_across_;
         for (int p = 0; p < pieces; ++p) {
             const double middle = (p + 0.5) / pieces;
             edges_.push_back({{(to_y - y) / length, (x - to_x) / length},
@@ -169,7 +173,8 @@ EdgeColours::EdgeColours(const FarSource &source, const PupilEdges &edges,
                               y + middle * (to_y - y),
                               length / pieces,
                               i,
-                              far});
+                              far,
+                              usual});
             nodes_.push_back(nodes(source, visibility.wavenumbers(), edges_.back()));
         }
     }
@@ -217,6 +222,11 @@ std::vector<ColourWaves> EdgeColours::waves(size_t edge, double x, double y) con
     std::vector<Node> nodes = nodes_[edge];
     respond(response_, x, y, nodes);
     return table(std::move(nodes), edges_[edge].reach);
+}
+
+bool goes_on(const Junction &junction) {
+    const auto &[end, other, kink] = junction;
+    return !end.is_curved && !other.is_curved && kink < widest_kink;
 }
 
 double most(std::span<const ColourWaves> waves) {

@@ -81,12 +81,13 @@ class EdgeColours {
         double x, y, length; // middle, m
         size_t straight;     // that it is part of
         double reach;        // across, native pixels
+        double usual;        // that matters to any edge but one that it meets, see goes_on()
     };
 
     // `reach`: across, native pixels, of the longest edge. Short ones send their light wider: theirs
-    // is up to `widest` times that.
+    // is up to `widest` times that; and edges that go on `onwards` times farther, with each other.
     EdgeColours(const FarSource &source, const PupilEdges &edges, const Visibility &visibility,
-                double reach, double widest = 1);
+                double reach, double widest, double onwards = 1);
 
     const std::vector<Edge> &edges() const { return edges_; }
     double per_across() const { return per_across_; }
@@ -121,6 +122,10 @@ class EdgeColours {
     std::vector<std::vector<Node>> nodes_; // by edge
     double per_across_;
 };
+
+// Whether a straight edge meets another one where the outline turns by little: their ends send light
+// together far across.
+bool goes_on(const Junction &junction);
 
 // The largest of all.
 double most(std::span<const ColourWaves> waves);

@@ -24,12 +24,12 @@ double of_model(double eps) {
     return eps > 5e-4 ? 0.2 : 0.1;
 }
 double of_far(double radius) {
-    return std::clamp(25 / radius, 0.25, 0.5);
+    return std::clamp(40 / radius, 0.55, 1.0);
 }
 
 // Tables of far light are that share of the light off, and more, the more it differs from place to
 // place. Such differences are off by as much of what far light is off itself.
-constexpr double interpolated = 2e-4, mixed = 0.02, of_differences = 0.05;
+constexpr double interpolated = 2e-4, mixed = 0.02, of_differences = 0.06;
 
 // Of what light differs from that of the middle at most, the nearest of 3 x 3 places is off.
 constexpr double off_nearest = 0.6;
