@@ -96,7 +96,7 @@ struct FarLight::Parts {
                                                               fringes_end * source.pixel())),
           narrow(source, edges, *visibility, 6, 3.5), middle(source, edges, *visibility, 14, 3.5),
           wide(source, edges, *visibility, 22, 3.5, 1.8) {}
-    std::vector<RimPoint> rims;
+    RimPoints rims;
     Spikes spikes;
     Arcs arcs; // of the spikes' tables
     std::shared_ptr<const Visibility> visibility;
@@ -108,10 +108,10 @@ FarLight::FarLight(const FarSource &source, const PupilEdges &edges)
 
 FarLight::FarLight(const FarSource &source, const PupilEdges &edges, Parts parts)
     : nearest_(source.nearest), mirror_(source.settings.mirrored ? -1 : 1),
-      spikes_(std::move(parts.spikes)), halo_(source, edges, parts.rims),
+      spikes_(std::move(parts.spikes)), halo_(source, edges, parts.rims.with_edges),
       edge_fringes_(source, edges, parts.wide, parts.visibility, spikes_.fringes),
       rim_fringes_(source, parts.middle, parts.visibility,
-                   points_for_fringes(std::move(parts.rims), parts.arcs, source, edges),
+                   points_for_fringes(std::move(parts.rims.own), parts.arcs, source, edges),
                    known_rims(edges, parts.arcs)),
       corner_fringes_(source, parts.narrow, parts.visibility, corners(source, edges),
                       known_corners(spikes_.fringes)) {}
@@ -193,7 +193,7 @@ double FarLight::brightest_beyond(double r) const {
 }
 
 FarLight::Error FarLight::relative_error(double r) const {
-    constexpr double between_rims = 0.115, on_spikes = 0.225;
+    constexpr double between_rims = 0.15, on_spikes = 0.3;
     return {on_spikes * halo_.brightest(r) / brightest_beyond(r), between_rims};
 }
 

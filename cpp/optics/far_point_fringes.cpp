@@ -177,7 +177,10 @@ double PointFringes<Point>::brightest(double r, const SpikeAxes &spike) const {
 template <class Point> void PointFringes<Point>::add(const PixelRow &row, double floor) const {
     for (const Edge &edge : edges_) {
         const SpikeAxes &axes = edge.edge.axes;
-        for (const Run &run : runs_along(axes, row, edge.edge.reach, nearest_, fringes_end)) {
+        // Aside of the spike what is nearer along its line may be far enough from the star.
+        constexpr double nearer = 0.75;
+        for (const Run &run :
+             runs_along(axes, row, edge.edge.reach, nearer * nearest_, fringes_end)) {
             const double here = axes.along(row.x, row.y);
             const double first = here + axes.nx * static_cast<double>(run.first);
             const double last = here + axes.nx * static_cast<double>(run.last);

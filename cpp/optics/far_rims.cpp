@@ -132,11 +132,16 @@ WFPSF_VECTORISED void add_turned(std::span<const EdgeEnd> edges, const RimTable:
 }
 
 // Over exp(2 pi i (k place + waves)), times k^(3/2) 2 pi i; by distance from the farthest on.
-Amplitudes amplitudes(const Rim &rim, const Stationary &at, const RimTable::Vector &u, double side,
-                      const Distances &k, double tables_end) {
+// Of the point, and with what edges send that turn off from arcs' ends.
+struct PointAmplitudes {
+    Amplitudes own, with_edges;
+};
+PointAmplitudes amplitudes(const Rim &rim, const Stationary &at, const RimTable::Vector &u,
+                           double side, const Distances &k, double tables_end) {
     constexpr double endless = 100; // of Fresnel's integral
-    Distances shift, per_radian, re{}, im{};
-    Amplitudes turned{};
+    Distances shift, per_radian;
+    Amplitudes own{}, turned{};
+    auto &[re, im] = own;
     for (size_t j = 0; j < k.size(); ++j) {
         const double bend = k[j] * at.bend + at.w_bend;
         shift[j] = at.w_slope / bend;
@@ -164,10 +169,12 @@ Amplitudes amplitudes(const Rim &rim, const Stationary &at, const RimTable::Vect
         const double scale =
             side * at.speed * std::sqrt(k[j]) / (per_radian[j] * (1 + at.slope / k[j]));
         const double sign = k[j] * at.bend + at.w_bend < 0 ? -1 : 1;
-        re[j] = scale * re[j] + sign * turned.re[j];
-        im[j] = sign * scale * im[j] + turned.im[j];
+        re[j] *= scale;
+        im[j] *= sign * scale;
+        turned.re[j] = re[j] + sign * turned.re[j];
+        turned.im[j] += im[j];
     }
-    return {re, im};
+    return {own, turned};
 }
 
 bool lit(const Rim &rim, double angle) {
@@ -224,23 +231,27 @@ double RimPoint::most(double ux, double uy, double r, double reach) const {
 
 namespace {
 
-std::vector<RimPoint> points_of(const std::vector<Rim> &rims, const FarSource &source) {
-    std::vector<RimPoint> points;
+// What it sends in a direction.
+void set(RimPoint &point, int direction, double waves, const Amplitudes &sent) {
+    const auto first = static_cast<std::ptrdiff_t>(RimTable::entry(direction, 1));
+    const auto stored = [](double value) { return static_cast<float>(value); };
+    std::ranges::transform(sent.re, point.re.begin() + first, stored);
+    std::ranges::transform(sent.im, point.im.begin() + first, stored);
+    point.waves[static_cast<size_t>(direction)] = waves;
+}
+
+RimPoints points_of(const std::vector<Rim> &rims, const FarSource &source) {
+    RimPoints points;
     const double wavelength = source.mean_wavelength();
     const double tables_end = source.fringe_reach() * source.pixel() / wavelength;
     const Wavefront w = source.wavefront(wavelength);
+    Distances k;
+    for (size_t j = 0; j < k.size(); ++j)
+        k[j] = RimTable::distance(static_cast<int>(j + 1), source.nearest) * source.pixel() /
+               wavelength;
     for (const Rim &rim : rims)
         for (const double side : {1.0, -1.0}) {
-            RimPoint point{rim.oval,
-                           side,
-                           source.nearest,
-                           std::vector<float>(RimTable::size),
-                           std::vector<float>(RimTable::size),
-                           std::vector<double>(RimTable::directions + 1)};
-            Distances k;
-            for (size_t j = 0; j < k.size(); ++j)
-                k[j] = RimTable::distance(static_cast<int>(j + 1), source.nearest) *
-                       source.pixel() / wavelength;
+            RimPoint own(rim.oval, side, source.nearest), with_edges = own;
             for (int i = 0; i < RimTable::directions; ++i) {
                 const RimTable::Vector u = RimTable::direction(i);
                 const Oval &o = rim.oval;
@@ -248,24 +259,24 @@ std::vector<RimPoint> points_of(const std::vector<Rim> &rims, const FarSource &s
                 if (!lit(rim, std::atan2(side * b, side * a)))
                     continue;
                 const Stationary at = stationary(rim.oval, w, u.x, u.y, side);
-                point.waves[static_cast<size_t>(i)] = at.waves;
-                const auto first = static_cast<std::ptrdiff_t>(RimTable::entry(i, 1));
-                const auto [re, im] = amplitudes(rim, at, u, side, k, tables_end);
-                const auto stored = [](double value) { return static_cast<float>(value); };
-                std::ranges::transform(re, point.re.begin() + first, stored);
-                std::ranges::transform(im, point.im.begin() + first, stored);
+                const PointAmplitudes sent = amplitudes(rim, at, u, side, k, tables_end);
+                set(own, i, at.waves, sent.own);
+                set(with_edges, i, at.waves, sent.with_edges);
             }
-            RimTable::close(point.re);
-            RimTable::close(point.im);
-            point.waves.back() = point.waves.front();
-            points.push_back(std::move(point));
+            for (RimPoint *point : {&own, &with_edges}) {
+                RimTable::close(point->re);
+                RimTable::close(point->im);
+                point->waves.back() = point->waves.front();
+            }
+            points.own.push_back(std::move(own));
+            points.with_edges.push_back(std::move(with_edges));
         }
     return points;
 }
 
 } // namespace
 
-std::vector<RimPoint> rim_points(const FarSource &source, const PupilEdges &edges) {
+RimPoints rim_points(const FarSource &source, const PupilEdges &edges) {
     return points_of(rims(edges), source);
 }
 
@@ -276,7 +287,7 @@ std::vector<RimPoint> rim_points_without(const std::vector<size_t> &curved, size
         return std::ranges::none_of(curved,
                                     [&](size_t c) { return edges.curved[c].oval == rim.oval; });
     });
-    std::vector<RimPoint> points = points_of(left, source);
+    std::vector<RimPoint> points = points_of(left, source).own;
     for (RimPoint &point : points)
         point.edge = straight;
     return points;

@@ -89,6 +89,10 @@ struct AmplitudeBlock {
 // exp(2 pi i (k place + waves)) / k^(3/2) times the table's, the light per unit of solid angle that
 // squared over (2 pi)^2; k = r / wavelength, in cycles per metre.
 struct RimPoint {
+    RimPoint(const Oval &of, double on_side, double nearest_pixel)
+        : oval(of), side(on_side), nearest(nearest_pixel), re(RimTable::size), im(RimTable::size),
+          waves(RimTable::directions + 1) {}
+
     Oval oval;
     double side;               // +1: in front, -1: behind
     double nearest;            // native pixels, of the tables
@@ -122,7 +126,11 @@ struct RimPoint {
 };
 
 // In pairs, the one in front first.
-std::vector<RimPoint> rim_points(const FarSource &source, const PupilEdges &edges);
+struct RimPoints {
+    std::vector<RimPoint> own;
+    std::vector<RimPoint> with_edges; // and what edges send that turn off from arcs' ends near by
+};
+RimPoints rim_points(const FarSource &source, const PupilEdges &edges);
 // Of the ovals of those curved edges, but without them, for one straight edge.
 std::vector<RimPoint> rim_points_without(const std::vector<size_t> &curved, size_t straight,
                                          const FarSource &source, const PupilEdges &edges);

@@ -329,8 +329,10 @@ class SpikeTables {
         const double per_pixel = std::max(high - low, 1e-3) * source_.pixel();
         const double along_step = std::min(20.0, blue / per_pixel / per_fringe);
         double end = std::min(farthest, most_fringes / (per_pixel * (1 / blue - 1 / red)));
-        for (const EdgeWaves *e : group)
-            end = std::max(nearest_end, std::min(end, leaves(*e, out.axes_)));
+        // Arcs are in tables alone.
+        if (std::ranges::all_of(group, [](const EdgeWaves *e) { return e->arcs.empty(); }))
+            for (const EdgeWaves *e : group)
+                end = std::max(nearest_end, std::min(end, leaves(*e, out.axes_)));
         const double steps = std::clamp(
             std::floor(blue / ((right - left) * source_.pixel() * per_wave * step_)), 1.0, 4.0);
         const double step = steps * step_;

@@ -77,14 +77,14 @@ inline double places(double stars, double width, double left_out) {
 
 // Far light on that many pixels of an image of so many, drawn by itself; and from tables.
 inline double far_light(double pixels, double image) {
-    return 1e-4 + 6e-10 * image + 1.3e-8 * pixels;
+    return 1e-4 + 6e-10 * image + 2e-8 * pixels;
 }
 inline double far_blocks(double pixels) {
     return 1e-5 + 3.5e-9 * pixels;
 }
 
 // What they are made from.
-constexpr double making_far_light = 0.06, far_light_memory = 4e6;
+constexpr double making_far_light = 0.07, far_light_memory = 4e6;
 inline double far_tables(double radius, bool varies) {
     const double native = 4 * radius * radius;
     return varies ? 9 * making_far_light + 1.5e-6 * native : making_far_light + 5e-7 * native;

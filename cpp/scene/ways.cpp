@@ -17,14 +17,15 @@ constexpr double negligible = 0.01;
 
 // What PSFs are off is no larger than that, of what they may be (tests/unit/optics): exact ones at
 // the core and far from it, those of the whole detector anywhere; and what these lack where parts are
-// left out. Then far light from the pupil's edges: of Roman's eight bands, at five detectors each.
+// left out. Then far light from the pupil's edges: of Roman's eight bands, at six detectors each, and
+// four of WFIRST's.
 constexpr double of_exact = 0.05, of_exact_far_off = 0.015, of_left_out = 0.3;
 constexpr double of_exact_far_light = 0.004; // as far off as tables of far light begin
 double of_model(double eps) {
     return eps > 5e-4 ? 0.2 : 0.1;
 }
 double of_far(double radius) {
-    return std::clamp(40 / radius, 0.55, 1.0);
+    return std::clamp(50 / radius, 0.45, 0.75);
 }
 
 // Tables of far light are that share of the light off, and more, the more it differs from place to
@@ -164,6 +165,12 @@ double Ways::mean(double light, double cut) const {
     return group_.flux * std::min(light / (image_.native_x() * image_.native_y()), cut);
 }
 
+// What is off in a stamp and beyond it is so in different pixels of one source, and meets by chance in
+// those of several.
+double Ways::meeting(double in_stamp, double beyond) const {
+    return group_.count == 1 ? std::max(in_stamp, beyond) : std::hypot(in_stamp, beyond);
+}
+
 // By stamps of which a source's light is off so much `local`ly, and that leave out about all light
 // beyond `from`, `cut` of a source's in any pixel.
 PixelError Ways::left_out(const Way &way, double local, double from, double cut) const {
@@ -183,7 +190,7 @@ void Ways::leave_far(const Way &way, double time_s, const Take &take) const {
         const double own = group_.densest * cut(way.radius);
         const double others =
             (group_.crowded - group_.densest) * colour_.profile.mean_at(way.radius);
-        error = left_out(way, std::max(of_psf, own) + others, way.radius, cut(way.radius));
+        error = left_out(way, meeting(of_psf, own) + others, way.radius, cut(way.radius));
     }
     take({way, time_s, error});
 }
@@ -253,7 +260,7 @@ void Ways::add_far(const Way &way, double time_s, const SharedFarLight &far,
             if (drawing == FarDrawing::own)
                 time += cost::making_far_light + cost::far_light(step.pixels, pixels(end)) +
                         cost::far_light(in_tables, pixels(tables_end));
-            const double local = std::max(of_psf, group_.densest * (left + off));
+            const double local = meeting(of_psf, group_.densest * (left + off));
             with.far = step.floor;
             take({with, time_s + count() * time, left_out(way, local, from, left)});
         }

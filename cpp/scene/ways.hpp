@@ -133,6 +133,7 @@ class Ways {
     double mean(double light, double cut) const;
     double flux_within(double radius) const;
     double scatter_beyond(double radius) const;
+    double meeting(double in_stamp, double beyond) const;
     PixelError left_out(const Way &way, double local, double from, double cut) const;
     double far_off(const SharedFarLight &far, const Way &way) const;
     // What is beyond the stamps: far light, if there are tables of it.

@@ -66,10 +66,16 @@ TEST(PupilEdges, GoAroundTheLitAreaOfEveryPupil) {
 TEST(PupilEdges, RoundedCornersGoOnFromStraightEdges) {
     const PupilEdges edges = pupil_edges(TiltedStar("wfirst-afta-c5", "J129").aperture->parts());
     EXPECT_EQ(edges.straight.size(), 12U);
-    const auto joined = junctions(edges);
-    EXPECT_EQ(joined.size(), 24U);
-    for (const Junction &junction : joined)
+    int round = 0; // corners of struts
+    for (const Junction &junction : junctions(edges)) {
+        EXPECT_NEAR(junction.end.x, junction.other.x, 1e-5);
+        EXPECT_NEAR(junction.end.y, junction.other.y, 1e-5);
+        if (junction.end.is_curved == junction.other.is_curved)
+            continue;
         EXPECT_LT(junction.kink, 1e-6);
+        ++round;
+    }
+    EXPECT_EQ(round, 2 * 24);
 }
 
 // ------------------------------------------------------------------------------------------- light
@@ -148,7 +154,7 @@ void expect_errors_as_estimated(const Optics &optics, const Light &light) {
 TEST(FarLight, HasTheErrorsThatItEstimates) {
     for (const auto &[name, band, sca] :
          {std::tuple("roman-c9", "J129", 1), std::tuple("roman-c9", "K213", 18),
-          std::tuple("wfirst-afta-c5", "F184", 7)}) {
+          std::tuple("roman-c9", "H158", 12), std::tuple("wfirst-afta-c5", "F184", 7)}) {
         SCOPED_TRACE(band);
         const Instrument &instrument = Instrument::get(name);
         const auto aperture = std::visit(
@@ -162,7 +168,7 @@ TEST(FarLight, HasTheErrorsThatItEstimates) {
 }
 
 TEST(FarLight, IsThatOfTheExactEngineForRoman) {
-    expect_like_the_engine({"roman-c9", "J129"}, {{62, 15, 0.002, 0.02}, {124, 31, 0.002, 0.004}});
+    expect_like_the_engine({"roman-c9", "J129"}, {{62, 15, 0.004, 0.02}, {124, 31, 0.002, 0.004}});
 }
 
 // There the strut's short end beside it is seen 20 pixels off its own spike: it took 5 % of the light.
@@ -180,7 +186,7 @@ TEST(FarLight, IsThatOfTheExactEngineBeyondTheTablesOfSpikes) {
 }
 
 TEST(FarLight, IsThatOfTheExactEngineForTaperedStrutsAndRoundedCorners) {
-    expect_like_the_engine({"wfirst-afta-c5", "F184"}, {{126, 20, 0.005, 0.02}});
+    expect_like_the_engine({"wfirst-afta-c5", "F184"}, {{126, 20, 0.008, 0.02}});
 }
 
 // Edges on one line interfere however far off.
