@@ -21,7 +21,7 @@ inline double costly_digits(double eps) {
 // A PSF that reaches `radius` native pixels, of light of a relative bandwidth (0: one colour).
 inline double psf(double radius, double eps, double bandwidth) {
     if (bandwidth > 0)
-        return costly_digits(eps) * (5e-4 + 3.3e-6 * radius * (radius + 45));
+        return costly_digits(eps) * (5e-4 + 2.5e-6 * radius * (radius + 100));
     const double per_area = radius <= 64 ? 2.7e-6 : 8.5e-6;
     return digits(eps) / 6 * (0.7e-3 + per_area * radius * radius);
 }
