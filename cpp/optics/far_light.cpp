@@ -193,7 +193,7 @@ double FarLight::brightest_beyond(double r) const {
 }
 
 FarLight::Error FarLight::relative_error(double r) const {
-    constexpr double between_rims = 0.15, on_spikes = 0.3;
+    constexpr double between_rims = 0.16, on_spikes = 0.3;
     return {on_spikes * halo_.brightest(r) / brightest_beyond(r), between_rims};
 }
 

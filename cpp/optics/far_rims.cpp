@@ -251,7 +251,8 @@ RimPoints points_of(const std::vector<Rim> &rims, const FarSource &source) {
                wavelength;
     for (const Rim &rim : rims)
         for (const double side : {1.0, -1.0}) {
-            RimPoint own(rim.oval, side, source.nearest), with_edges = own;
+            RimPoint own(rim.oval, side, source.nearest);
+            RimPoint with_edges(rim.oval, side, source.nearest);
             for (int i = 0; i < RimTable::directions; ++i) {
                 const RimTable::Vector u = RimTable::direction(i);
                 const Oval &o = rim.oval;
