@@ -54,7 +54,7 @@ WFPSF_VECTORISED void add_fringes(const Ray &a, const Ray &b, const Coherence &c
 
 } // namespace
 
-Halo::Halo(const FarSource &source, const PupilEdges &edges, const std::vector<RimPoint> &points)
+Halo::Halo(const FarSource &source, const PupilEdges &edges, const RimPoints &points)
     : nearest_(source.nearest), table_(RimTable::size) {
     const double wavelength = source.mean_wavelength();
     double spread = 0; // variance of 1 / wavelength
@@ -72,13 +72,18 @@ Halo::Halo(const FarSource &source, const PupilEdges &edges, const std::vector<R
         const size_t first = RimTable::entry(i, 1);
         Distances light{};
         std::vector<Ray> rays;
-        for (const RimPoint &point : points) {
+        for (size_t p = 0; p < points.own.size(); ++p) {
+            const RimPoint &own = points.own[p], &point = points.with_edges[p];
             const Ray ray{point.re.data() + first, point.im.data() + first, point.place(ux, uy),
                           point.waves[static_cast<size_t>(i)]};
             if (ray.dark())
                 continue;
-            for (size_t j = 0; j < distance.size(); ++j)
-                light[j] += ray.re[j] * ray.re[j] + ray.im[j] * ray.im[j];
+            // What edges' ends send by themselves is elsewhere.
+            for (size_t j = 0; j < distance.size(); ++j) {
+                const double re = ray.re[j], im = ray.im[j];
+                const double turned_re = re - own.re[first + j], turned_im = im - own.im[first + j];
+                light[j] += re * re + im * im - turned_re * turned_re - turned_im * turned_im;
+            }
             for (const Ray &other : rays)
                 add_fringes(ray, other, coherence, distance, light.data());
             rays.push_back(ray);

@@ -10,7 +10,7 @@ namespace wfpsf {
 
 class Halo {
   public:
-    Halo(const FarSource &source, const PupilEdges &edges, const std::vector<RimPoint> &points);
+    Halo(const FarSource &source, const PupilEdges &edges, const RimPoints &points);
 
     // Adds fractions of the light, where they may be above the floor.
     void add(const PixelRow &row, double floor) const;

@@ -108,7 +108,7 @@ FarLight::FarLight(const FarSource &source, const PupilEdges &edges)
 
 FarLight::FarLight(const FarSource &source, const PupilEdges &edges, Parts parts)
     : nearest_(source.nearest), mirror_(source.settings.mirrored ? -1 : 1),
-      spikes_(std::move(parts.spikes)), halo_(source, edges, parts.rims.with_edges),
+      spikes_(std::move(parts.spikes)), halo_(source, edges, parts.rims),
       edge_fringes_(source, edges, parts.wide, parts.visibility, spikes_.fringes),
       rim_fringes_(source, parts.middle, parts.visibility,
                    points_for_fringes(std::move(parts.rims.own), parts.arcs, source, edges),

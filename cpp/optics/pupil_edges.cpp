@@ -244,6 +244,9 @@ std::vector<Junction> junctions(const PupilEdges &edges) {
 
 std::vector<ArcOnwards> arcs_onwards(const PupilEdges &edges, double widest) {
     const std::vector<Junction> joined = junctions(edges);
+    const auto is_short = [&edges](const EdgeEnd &of) {
+        return edges.curved[of.edge].end - edges.curved[of.edge].begin < pi;
+    };
     std::vector<ArcOnwards> arcs;
     for (const auto &[straight, first, kink] : joined) {
         if (straight.is_curved || !first.is_curved || kink >= widest)
@@ -255,10 +258,10 @@ std::vector<ArcOnwards> arcs_onwards(const PupilEdges &edges, double widest) {
                 return end.is_curved && end.edge == arc->edge && end.at_begin != arc->at_begin;
             });
             arc = nullptr;
-            if (farther == joined.end())
+            if (farther == joined.end() || !is_short(farther->end))
                 break;
             const auto &[end, other, turn] = *farther;
-            if (std::abs(end.nx * straight.tx + end.ny * straight.ty) >= widest)
+            if (end.nx * straight.nx + end.ny * straight.ny < std::cos(widest))
                 break;
             arcs.push_back({straight.edge, end, true, INFINITY});
             if (!other.is_curved || turn >= widest)
