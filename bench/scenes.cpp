@@ -187,10 +187,11 @@ Case stars_case(const Stars &field, double noise, double target_s, bool with_err
                                                        image, 32, 1, another),
                                          {}, budget, image, reuse);
                     render(optics, plan, drawn.view(), 1);
-                    drawn = Plane<float>(image.nx, image.ny);
                 }
                 m.timing = time(
                     [&] {
+                        for (int64_t y = 0; y < drawn.ny(); ++y) // may be drawn before
+                            std::fill_n(drawn.view().row(y), drawn.nx(), 0.0F);
                         // Only what takes long enough to be drawn once need not be copied.
                         const bool once = field.count > 1000000;
                         const ScenePlan plan(optics, once ? std::move(stars) : stars, {}, budget,

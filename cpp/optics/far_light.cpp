@@ -94,8 +94,8 @@ struct FarLight::Parts {
           arcs(arcs_in(spikes.fringes, edges)),
           visibility(std::make_shared<Visibility>(source, 1.1 * source.optics.aperture->diameter() *
                                                               fringes_end * source.pixel())),
-          narrow(source, edges, *visibility, 6, 3.5), middle(source, edges, *visibility, 9, 3.5),
-          wide(source, edges, *visibility, 22, 3.5, 1.8) {}
+          narrow(source, edges, *visibility, 6), middle(source, edges, *visibility, 9),
+          wide(source, edges, *visibility, 22, 1.8) {}
     RimPoints rims;
     Spikes spikes;
     Arcs arcs; // of the spikes' tables

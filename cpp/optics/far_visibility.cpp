@@ -135,7 +135,7 @@ double Visibility::most(double path) const {
 }
 
 EdgeColours::EdgeColours(const FarSource &source, const PupilEdges &edges,
-                         const Visibility &visibility, double reach, double widest, double onwards)
+                         const Visibility &visibility, double reach, double onwards)
     : per_across_(2 * std::max(1.0, source.bandwidth())) {
     const auto &[xx, xy, yy] = source.settings.blur;
     response_ = {{xx, source.settings.mirrored ? -xy : xy, yy},
@@ -148,6 +148,7 @@ EdgeColours::EdgeColours(const FarSource &source, const PupilEdges &edges,
     for (const auto &[x, y, to_x, to_y] : edges.straight)
         longest = std::max(longest, std::hypot(to_x - x, to_y - y));
     const std::vector<Junction> joined = junctions(edges);
+    constexpr double widest = 2; // of the longest edge's
     const auto reaches = [&](double times) {
         return std::ceil(reach * std::min(times, widest) * per_across_) / per_across_;
     };

@@ -85,9 +85,9 @@ class EdgeColours {
     };
 
     // `reach`: across, native pixels, of the longest edge. Short ones send their light wider: theirs
-    // is up to `widest` times that; and edges that go on `onwards` times farther, with each other.
+    // is up to twice that; and of edges that go on, with each other, `onwards` times as much.
     EdgeColours(const FarSource &source, const PupilEdges &edges, const Visibility &visibility,
-                double reach, double widest, double onwards = 1);
+                double reach, double onwards = 1);
 
     const std::vector<Edge> &edges() const { return edges_; }
     double per_across() const { return per_across_; }
