@@ -50,10 +50,9 @@ class FarLight {
     double halo_radius(double floor) const { return halo_.radius(floor); }
 
     // The largest error of pixels at r or farther: near the spikes' lines as a share of
-    // brightest_beyond(r), elsewhere of halo_beyond(r). Fringes between rims, of which the halo has
-    // the mean only. Fitted to the worst of all pixels at 24..256 off Roman's pupil and WFIRST's,
-    // in bands of 2.5 to 18 fringes at the nearest; by then the rms is a quarter or less. Half that
-    // at 100..700 off Roman's.
+    // brightest_beyond(r), elsewhere of halo_beyond(r). Fitted to the worst of all pixels from 40 on
+    // off Roman's pupil and WFIRST's, in bands of 2.5 to 18 fringes at the nearest; half that from 90
+    // on, and the rms is an eighth (tests/unit/optics/far_light_test.cpp).
     struct Error {
         double spikes, halo;
     };
