@@ -118,8 +118,8 @@ WFPSF_VECTORISED void add_turned(std::span<const EdgeEnd> edges, const RimTable:
     for (const EdgeEnd &edge : edges) {
         const double along = edge.tx * u.x + edge.ty * u.y;
         const double sent = (edge.nx * u.x + edge.ny * u.y) / (2 * pi);
-        const double least = 0.01 * std::copysign(1.0, along); // nearer to the line tables have it
-        const double ratio = sent / (std::abs(along) < std::abs(least) ? least : along);
+        constexpr double least = 0.01; // nearer to the line tables have it
+        const double ratio = sent / std::copysign(std::max(std::abs(along), least), along);
         for (size_t j = first; j < x.size(); ++j) {
             const double share = ratio / std::sqrt(k[j]) * (1 - within(along * k[j] / tables_end)) *
                                  (1 - corner_share(std::abs(x[j])));

@@ -98,7 +98,7 @@ struct RimPoint {
     double nearest;            // native pixels, of the tables
     std::vector<float> re, im; // by direction and distance
     std::vector<double> waves; // wavefront there by direction, at the mean wavelength
-    // The straight edge that it makes fringes with; none: all, and it is part of the halo.
+    // The one straight edge that it makes fringes with; none: all of them.
     std::optional<size_t> edge = {};
 
     RimTable::Vector position(double ux, double uy) const; // m

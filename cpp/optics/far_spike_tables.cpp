@@ -171,8 +171,7 @@ class SpikeTables {
         constexpr double least = 0.2; // where it turns back its spike is about the edge's own
         const double normal = edge.axes.along(other.nx, other.ny);
         const double tangent = edge.axes.along(other.tx, other.ty);
-        const double share =
-            std::abs(tangent) < least ? 0 : normal / tangent / (2 * std::numbers::pi);
+        const double share = std::abs(tangent) < least ? 0 : normal / tangent / (2 * pi);
         return {edge.axes.across(other.x - edge.x, other.y - edge.y), share,
                 source_.optics.wavefront(other.x, other.y)};
     }
@@ -213,7 +212,6 @@ class SpikeTables {
         }
         return taps;
     }
-    double fringe_reach() const { return source_.fringe_reach(); }
     double mirror() const { return source_.settings.mirrored ? -1 : 1; }
 
     static std::vector<double> filtered(const std::vector<double> &values,
@@ -244,7 +242,7 @@ class SpikeTables {
         out.tail_ = source_.mean_wavelength(2) / (2 * pi * pi * std::pow(source_.pixel(), 2));
         out.per_pixel_ = 1 / step_;
         out.reach_ = static_cast<double>(half) * step_;
-        out.fringe_reach_ = fringe_reach();
+        out.fringe_reach_ = source_.fringe_reach();
         // Mean over the edge's two ends; entries `per_unit` to a unit of x.
         constexpr double per_unit = 32;
         out.rounded_.assign(Spike::rounded_size, 1);
@@ -304,7 +302,7 @@ class SpikeTables {
     double leaves(const EdgeWaves &edge, const SpikeAxes &axes) const {
         constexpr double least = 4; // native pixels
         const double half_width = source_.mean_wavelength() / (source_.pixel() * edge.length);
-        const double aside = std::max(least, 2.0 / 3 * fringe_reach() - half_width);
+        const double aside = std::max(least, 2.0 / 3 * source_.fringe_reach() - half_width);
         return aside / std::abs(axes.across(edge.axes.nx, edge.axes.ny));
     }
 
@@ -343,7 +341,8 @@ class SpikeTables {
         out.per_across_ = 1 / step;
         out.rows_ =
             std::max<int64_t>(8, static_cast<int64_t>((end - out.nearest_) / along_step) + 4);
-        const auto across = static_cast<std::ptrdiff_t>(fringe_reach() / step);
+        const double reach = source_.fringe_reach();
+        const auto across = static_cast<std::ptrdiff_t>(reach / step);
         out.columns_ = 2 * across + 1;
         const std::vector<double> taps = filter(out.axes_, step);
         out.most_.assign(static_cast<size_t>(out.rows_), 0.0);
@@ -356,7 +355,7 @@ class SpikeTables {
                     filtered(together(group, out.axes_, along, across + filter_half, step), taps);
                 for (std::ptrdiff_t j = -across; j <= across; ++j)
                     values[static_cast<size_t>(j + across)] *=
-                        within(static_cast<double>(j) * step / fringe_reach());
+                        within(static_cast<double>(j) * step / reach);
                 double &most = out.most_[static_cast<size_t>(row)];
                 for (const double value : values)
                     most = std::max(most, std::abs(value));
