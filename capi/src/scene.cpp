@@ -116,6 +116,22 @@ wfpsf_status wfpsf_scene_store_memory(const wfpsf_scene_store *store, int64_t *b
     });
 }
 
+wfpsf_status wfpsf_scene_store_write(const wfpsf_scene_store *store, const char *path) {
+    return guarded([&] {
+        require_pointer(store, "store");
+        require_pointer(path, "path");
+        store->store->write(path);
+    });
+}
+
+wfpsf_status wfpsf_scene_store_read(wfpsf_scene_store *store, const char *path) {
+    return guarded([&] {
+        require_pointer(store, "store");
+        require_pointer(path, "path");
+        store->store->read(path);
+    });
+}
+
 wfpsf_status wfpsf_scene_create(const wfpsf_instrument *instrument,
                                 const wfpsf_observation *observation, const char *band, int32_t sca,
                                 const wfpsf_catalogue *catalogue, const wfpsf_image *image,

@@ -142,7 +142,11 @@ void write_fits(const std::string &path, const Image &image, bool overwrite,
     NewFile target(path, overwrite);
     Memory memory;
     make_file(path, image, keywords, memory);
-    target.write({static_cast<const std::byte *>(memory.data), memory.size}, path.ends_with(".gz"));
+    const std::span bytes(static_cast<const std::byte *>(memory.data), memory.size);
+    if (path.ends_with(".gz"))
+        target.write_compressed(bytes);
+    else
+        target.append(bytes);
     target.publish();
 }
 

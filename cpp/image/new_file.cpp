@@ -69,16 +69,14 @@ NewFile::~NewFile() {
         unlink(temporary_.c_str());
 }
 
-void NewFile::write(std::span<const std::byte> bytes, bool compressed) {
-    if (!compressed) {
-        if (!write_in_steps(bytes, [this](const std::byte *data, size_t size) {
-                return ::write(descriptor_, data, size);
-            }))
-            fail_with_errno(path_);
-        if (close(std::exchange(descriptor_, -1)) != 0)
-            fail_with_errno(path_);
-        return;
-    }
+void NewFile::append(std::span<const std::byte> bytes) {
+    if (!write_in_steps(bytes, [this](const std::byte *data, size_t size) {
+            return ::write(descriptor_, data, size);
+        }))
+        fail_with_errno(path_);
+}
+
+void NewFile::write_compressed(std::span<const std::byte> bytes) {
     gzFile file = gzdopen(descriptor_, "wb");
     if (!file)
         fail_with_errno(path_);
@@ -91,6 +89,8 @@ void NewFile::write(std::span<const std::byte> bytes, bool compressed) {
 }
 
 void NewFile::publish() {
+    if (descriptor_ >= 0 && close(std::exchange(descriptor_, -1)) != 0)
+        fail_with_errno(path_);
     if (!overwrite_) {
         // A link is refused where the name was taken in the meantime; a rename would replace it.
         if (link(temporary_.c_str(), path_.c_str()) == 0)

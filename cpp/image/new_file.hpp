@@ -17,8 +17,10 @@ class NewFile {
     NewFile(const NewFile &) = delete;
     NewFile &operator=(const NewFile &) = delete;
 
-    // The whole content, compressed with gzip if asked for.
-    void write(std::span<const std::byte> bytes, bool compressed);
+    // The next part of the content.
+    void append(std::span<const std::byte> bytes);
+    // The whole content, compressed with gzip.
+    void write_compressed(std::span<const std::byte> bytes);
     void publish();
 
   private:

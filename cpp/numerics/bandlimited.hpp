@@ -15,6 +15,7 @@ namespace wfpsf {
 // and zero on all of the band's images but for exp(-b), if b = 2 pi H (1/2 - bandwidth).
 class BandlimitedInterpolator {
   public:
+    BandlimitedInterpolator() = default; // of no width
     BandlimitedInterpolator(double bandwidth, double eps);
 
     int half_width() const { return half_width_; }
@@ -32,12 +33,16 @@ class BandlimitedInterpolator {
     // samples; 0: nothing is averaged): taps f[0 .. 2m], centre f[m].
     std::vector<double> averaging_filter(double width) const;
 
+    template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+        archive(self.half_width_, self.beta_, self.error_);
+    }
+
   private:
     friend class AveragedSamples;
     BandlimitedInterpolator(int half_width, double beta) : half_width_(half_width), beta_(beta) {}
 
-    int half_width_;
-    double beta_, error_ = 0;
+    int half_width_ = 0;
+    double beta_ = 0, error_ = 0;
 };
 
 // What bounds the spectrum of an intensity behind an aperture of given extent along both axes: the

@@ -39,6 +39,10 @@ struct Corner {
     }
     double most(double ux, double uy, double r, double reach) const;
 
+    template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+        archive(self.x, self.y, self.phase, self.per_pixel, self.pieces, self.straight);
+    }
+
   private:
     [[gnu::always_inline]] static void add(const Piece &piece, const PixelBlock &at,
                                            PixelBlock::Values &sum) {

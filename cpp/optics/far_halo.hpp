@@ -10,6 +10,7 @@ namespace wfpsf {
 
 class Halo {
   public:
+    Halo() = default; // none
     Halo(const FarSource &source, const PupilEdges &edges, const RimPoints &points);
 
     // Adds fractions of the light, where they may be above the floor.
@@ -19,9 +20,13 @@ class Halo {
     // The distance from which on all light is below the floor.
     double radius(double floor) const;
 
+    template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+        archive(self.nearest_, self.most_, self.corners_, self.table_);
+    }
+
   private:
-    double nearest_, most_ = 0;
-    double corners_;           // light of the edges' ends between the spikes, times r^4
+    double nearest_ = 0, most_ = 0;
+    double corners_ = 0;       // light of the edges' ends between the spikes, times r^4
     std::vector<float> table_; // light times the cube of the distance
 };
 

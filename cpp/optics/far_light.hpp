@@ -4,6 +4,7 @@
 // Soc. Am. 52, 116). Some nanoseconds a pixel; the exact engine's cost grows with the distance.
 #pragma once
 
+#include "image/archive.hpp"
 #include "image/view.hpp"
 #include "optics/far_edge_fringes.hpp"
 #include "optics/far_halo.hpp"
@@ -58,13 +59,20 @@ class FarLight {
     };
     Error relative_error(double r) const;
 
+    template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+        archive(self.nearest_, self.mirror_, self.spikes_, self.halo_, self.edge_fringes_,
+                self.rim_fringes_, self.corner_fringes_);
+    }
+
   private:
+    friend class ArchiveReader;
+    FarLight() = default; // what an archive holds goes in
     struct Parts;
     FarLight(const FarSource &source, const PupilEdges &edges);
     FarLight(const FarSource &source, const PupilEdges &edges, Parts parts);
     void add(const PixelRow &row, double floor) const;
 
-    double nearest_, mirror_;
+    double nearest_ = 0, mirror_ = 1;
     Spikes spikes_;
     Halo halo_;
     EdgeFringes edge_fringes_;

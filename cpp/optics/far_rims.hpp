@@ -89,13 +89,14 @@ struct AmplitudeBlock {
 // exp(2 pi i (k place + waves)) / k^(3/2) times the table's, the light per unit of solid angle that
 // squared over (2 pi)^2; k = r / wavelength, in cycles per metre.
 struct RimPoint {
+    RimPoint() = default; // none
     RimPoint(const Oval &of, double on_side, double nearest_pixel)
         : oval(of), side(on_side), nearest(nearest_pixel), re(RimTable::size), im(RimTable::size),
           waves(RimTable::directions + 1) {}
 
-    Oval oval;
-    double side;               // +1: in front, -1: behind
-    double nearest;            // native pixels, of the tables
+    Oval oval{};
+    double side = 0;           // +1: in front, -1: behind
+    double nearest = 0;        // native pixels, of the tables
     std::vector<float> re, im; // by direction and distance
     std::vector<double> waves; // wavefront there by direction, at the mean wavelength
     // The one straight edge that it makes fringes with; none: all of them.
@@ -123,6 +124,10 @@ struct RimPoint {
     }
     // Of all amplitudes at the distance r, up to `reach` aside from the direction.
     double most(double ux, double uy, double r, double reach) const;
+
+    template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+        archive(self.oval, self.side, self.nearest, self.re, self.im, self.waves, self.edge);
+    }
 };
 
 // In pairs, the one in front first.

@@ -75,6 +75,12 @@ class Spike {
     // How far from its line a spike's light is above the floor, at the distance r along it.
     double half_width(double r, double floor) const;
 
+    template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+        archive(self.axes_, self.scale_, self.tail_, self.most_, self.steepest_, self.per_pixel_,
+                self.reach_, self.constant_, self.slope_, self.fringe_reach_, self.rounding_,
+                self.rounded_);
+    }
+
   private:
     friend class SpikeTables;
     SpikeAxes axes_{};
@@ -104,6 +110,12 @@ class Fringes {
     // The most at a distance of r or more.
     double brightest(double r) const;
 
+    template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+        archive(self.axes_, self.members_, self.nearest_, self.end_, self.per_along_,
+                self.per_across_, self.rows_, self.columns_, self.table_[0], self.table_[1],
+                self.most_);
+    }
+
   private:
     friend class SpikeTables;
     SpikeAxes axes_{};
@@ -120,6 +132,9 @@ class Fringes {
 struct Spikes {
     std::vector<Spike> spikes;
     std::vector<Fringes> fringes;
+    template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+        archive(self.spikes, self.fringes);
+    }
 };
 
 Spikes make_spikes(const FarSource &source, const PupilEdges &edges);

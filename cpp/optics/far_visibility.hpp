@@ -54,6 +54,7 @@ struct CubicWeights {
 // other colours, of sqrt(wavelength / mean) exp(2 pi i path / wavelength).
 class Visibility {
   public:
+    Visibility() = default; // none
     Visibility(const FarSource &source, double longest);
 
     const std::array<double, far_colours> &wavenumbers() const { return wavenumber_; }
@@ -65,9 +66,13 @@ class Visibility {
     // Of all colours together; no longer path has more.
     double most(double path) const;
 
+    template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+        archive(self.middle_, self.per_path_, self.wavenumber_, self.table_, self.most_);
+    }
+
   private:
-    double middle_, per_path_;
-    std::array<double, far_colours> wavenumber_;
+    double middle_ = 0, per_path_ = 0;
+    std::array<double, far_colours> wavenumber_{};
     std::vector<ColourWaves> table_;
     std::vector<double> most_;
 };

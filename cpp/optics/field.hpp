@@ -37,6 +37,10 @@ struct PsfSettings {
     Covariance blur = {}; // of a Gaussian, native pixels^2: jitter and charge diffusion
     // The light of a sample is the average over a native pixel, else the density at its centre.
     bool pixel_response = true;
+    template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+        archive(self.wavelength, self.pixel_scale, self.eps, self.radius, self.mirrored, self.blur,
+                self.pixel_response);
+    }
 };
 
 // Position in samples of an image, the first one's centre at (0, 0).
@@ -49,6 +53,7 @@ struct Colour {
 };
 
 struct Field {
+    Field() = default;
     explicit Field(const BandlimitedInterpolator &of) : interpolator(of) {}
     BandlimitedInterpolator interpolator;
     int64_t per_pixel = 1; // grid samples a native pixel
@@ -66,6 +71,12 @@ struct Field {
     double shortest_wavelength = 0, longest_wavelength = 0, tolerance = 0;
 
     void find_peaks(); // peak and faintest_peak from value
+
+    template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+        archive(self.interpolator, self.per_pixel, self.value, self.colours, self.nodes,
+                self.grid_size, self.peak, self.faintest_peak, self.error, self.model_error,
+                self.shortest_wavelength, self.longest_wavelength, self.tolerance);
+    }
 
     // out(i, j) = what a star gives pixel (first_x + i, first_y + j) of an image whose first pixel
     // is at (0, 0): see Psf::draw().

@@ -26,6 +26,9 @@ struct LightMode {
 
     void find_brightest(int64_t per_pixel) { brightest = brightest_by_pixel(light, per_pixel); }
     double largest() const { return brightest[0]; }
+    template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+        archive(self.i, self.j, self.light, self.brightest);
+    }
 };
 
 // The largest absolute value 0, 1, ... half samples, along an axis, from the middle of a square, or

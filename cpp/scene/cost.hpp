@@ -84,7 +84,7 @@ inline double far_blocks(double pixels) {
 }
 
 // What they are made from.
-constexpr double making_far_light = 0.07, far_light_memory = 4e6;
+constexpr double making_far_light = 0.07, far_light_memory = 14e6;
 inline double far_tables(double radius, bool varies) {
     const double native = 4 * radius * radius;
     return varies ? 9 * making_far_light + 1.5e-6 * native : making_far_light + 5e-7 * native;

@@ -43,7 +43,7 @@ void to_coefficients(std::vector<SampledLight> &light) {
 LightBlocks far_differences(std::span<const FarLight> at_places, const MiddleLight &middle,
                             double radius, double floor) {
     if (at_places.size() == 1 || radius <= middle.inner)
-        return LightBlocks({});
+        return LightBlocks();
     using Which = SampledLight::Which;
     const auto fill = [&](size_t place, SampledLight &to, const SampleRange &range, Which which) {
         to.add(at_places[place], at_places[place].nearest(), floor / less, range, which);

@@ -15,6 +15,7 @@ std::optional<FarLight> far_light_of(const Optics &optics, const Light &light,
 
 class FarReach {
   public:
+    FarReach() = default; // none
     // `brightest`: how much of its bound the brightest pixel gets.
     FarReach(const FarLight &light, double brightest);
 
@@ -34,8 +35,12 @@ class FarReach {
     // From where on all pixels get less than a floor, one of the steps'.
     double radius(double floor) const;
 
+    template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+        archive(self.nearest_, self.steps_, self.rings_);
+    }
+
   private:
-    double nearest_;
+    double nearest_ = 0;
     std::vector<Step> steps_;
     struct Ring {
         double brightest, error;

@@ -5,7 +5,7 @@
 
 #include "optics/far_light.hpp"
 #include "optics/psf.hpp"
-#include "optics/varying_psf.hpp"
+#include "optics/varying_light.hpp"
 #include "scene/light_blocks.hpp"
 
 #include <cstdint>
@@ -19,6 +19,7 @@ struct MiddleLight;
 
 class FarTable {
   public:
+    FarTable() = default;
     explicit FarTable(const MiddleLight &light);
     double radius() const { return radius_; }
     int64_t memory() const { return blocks_.memory(); } // bytes held
@@ -34,8 +35,12 @@ class FarTable {
     void add(const Star &star, double inner, double floor, View<T> image, int64_t first_row,
              int64_t last_row) const;
 
+    template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+        archive(self.radius_, self.shares_, self.blocks_);
+    }
+
   private:
-    double radius_;
+    double radius_ = 0;
     struct Share {
         double brightest, light; // in a pixel of its block; on the average of its own
         int64_t x, y;            // of the first pixel, from the star's
@@ -71,12 +76,18 @@ class FarTables {
     const FarTable &middle() const { return middle_; } // of the first place
     int64_t memory() const { return middle_.memory() + differences_.memory(); } // bytes held
 
+    template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+        archive(self.image_, self.differences_radius_, self.middle_, self.differences_);
+    }
+
   private:
+    friend class ArchiveReader;
+    FarTables() = default; // what an archive holds goes in
     FarTables(std::span<const FarLight> at_places, const Region &image, const Extent &extent,
               const MiddleLight &middle);
 
-    Region image_;
-    double differences_radius_;
+    Region image_{};
+    double differences_radius_ = 0;
     FarTable middle_;
     LightBlocks differences_; // coefficients of x, x^2, y, y^2, x y, ...
 };

@@ -33,6 +33,7 @@ class LightBlocks {
         double inner; // no pixel as near to the star is drawn, native pixels along both axes
         std::vector<Part> parts;
     };
+    LightBlocks() = default;
     explicit LightBlocks(std::vector<Block> blocks);
 
     struct Bounds {
@@ -50,12 +51,19 @@ class LightBlocks {
                                     blocks_.size() * sizeof(StoredBlock));
     }
 
+    template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+        archive(self.blocks_, self.parts_, self.coefficients_);
+    }
+
   private:
     struct StoredPart {
         size_t number;
         double brightest;
         float unit;   // of the coefficients
         size_t first; // of them
+        template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+            archive(self.number, self.brightest, self.unit, self.first);
+        }
     };
     struct StoredBlock {
         double brightest; // of the parts

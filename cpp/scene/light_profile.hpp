@@ -30,6 +30,10 @@ class LightProfile {
     // How much the latter may be off, for all places of a detector.
     static constexpr double mean_varies = 0.05;
 
+    template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+        archive(self.brightest_, self.outside_);
+    }
+
   private:
     // The PSF of one place stands for those of a detector, whose wings differ a little.
     static constexpr double safety = 1.3;

@@ -112,7 +112,8 @@ double after_blur(const SourceGroup &group) {
     return group.index <= 1.5 ? 1 / (1 + std::pow(radius, 4)) : 1 / (1 + radius);
 }
 
-// Of what light makes there, whatever brought it about.
+// Of what light makes there, whatever brought it about: to an eleventh digit, since machines differ in
+// the last ones.
 uint64_t key_of(const SceneOptics &optics, const Light &light, const SceneImage &image) {
     Fingerprint print;
     const Region &region = optics.region;
@@ -129,7 +130,7 @@ uint64_t key_of(const SceneOptics &optics, const Light &light, const SceneImage 
         const Plane<double> core = core_of(here, light, settings);
         for (int64_t y = 0; y < core.ny(); ++y)
             for (int64_t x = 0; x < core.nx(); ++x)
-                print.add(core(x, y));
+                print.add(static_cast<int64_t>(std::llround(core(x, y) * 1e11)));
     }
     return print.value();
 }

@@ -4,7 +4,7 @@
 // of all groups add up to no more than the budget.
 #pragma once
 
-#include "optics/varying_psf.hpp"
+#include "optics/varying_light.hpp"
 #include "scene/scene_store.hpp"
 #include "scene/ways.hpp"
 

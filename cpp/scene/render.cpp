@@ -111,12 +111,12 @@ template <class T> class Renderer {
             plan_.reuse().store->keep(plan_.key(colour), made);
     }
 
-    std::shared_ptr<const VaryingPsf> model_of(int32_t colour) {
+    std::shared_ptr<const VaryingLight> model_of(int32_t colour) {
         const SharedModel &model = plan_.models()[static_cast<size_t>(colour)];
         for (const KeptPsfs &there : kept(colour))
             if (there.serves(model))
                 return there.psf;
-        auto made = std::make_shared<VaryingPsf>(
+        auto made = std::make_shared<VaryingLight>(
             optics_.at, optics_.varies, optics_.lights[static_cast<size_t>(colour)],
             settings(model.eps, model.radius), optics_.region,
             Manners{manners_.progress.between(0, 0.2), manners_.memory_limit});
@@ -459,7 +459,7 @@ template <class T> class Renderer {
     int threads_;
     const Manners &manners_;
     // By colour.
-    std::vector<std::shared_ptr<const VaryingPsf>> models_;
+    std::vector<std::shared_ptr<const VaryingLight>> models_;
     std::vector<std::shared_ptr<const FarTables>> tables_;
     RenderReport report_;
 };

@@ -2,7 +2,7 @@
 // What scenes of the same optics are drawn with, kept from one to the next.
 #pragma once
 
-#include "optics/varying_psf.hpp"
+#include "optics/varying_light.hpp"
 #include "scene/far_table.hpp"
 #include "scene/ways.hpp"
 
@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <string>
 
 namespace wfpsf {
 
@@ -17,7 +18,7 @@ namespace wfpsf {
 struct KeptPsfs {
     std::shared_ptr<const ColourFacts> facts = {};
     SharedModel model = {}; // what `psf` was made for
-    std::shared_ptr<const VaryingPsf> psf = {};
+    std::shared_ptr<const VaryingLight> psf = {};
     SharedFarLight far = {}; // what `tables` were made for
     std::shared_ptr<const FarTables> tables = {};
 
@@ -30,6 +31,9 @@ struct KeptPsfs {
                far.floor <= wanted.floor && far.differences_floor <= wanted.differences_floor &&
                far.differences_radius >= wanted.differences_radius;
     }
+    template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+        archive(self.facts, self.model, self.psf, self.far, self.tables);
+    }
 };
 
 // Holds for every key what was kept last. Thread-safe.
@@ -38,6 +42,11 @@ class SceneStore {
     KeptPsfs find(uint64_t key) const;
     void keep(uint64_t key, const KeptPsfs &made); // what of it was made
     int64_t memory() const;                        // bytes, about
+
+    // To a file, in place of one that is there; and from one, in place of what is kept of the same
+    // keys.
+    void write(const std::string &path) const;
+    void read(const std::string &path);
 
   private:
     mutable std::mutex mutex_;

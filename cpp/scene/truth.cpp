@@ -6,6 +6,7 @@
 #include "moments/adaptive.hpp"
 #include "numerics/bands.hpp"
 #include "optics/otf.hpp"
+#include "optics/varying_psf.hpp"
 #include "scene/galaxy.hpp"
 
 #include <algorithm>

@@ -57,6 +57,9 @@ struct SharedModel {
     bool needed = false;
     double eps = 0, radius = 0; // native pixels
     double time_s = 0;
+    template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+        archive(self.needed, self.eps, self.radius, self.time_s);
+    }
 };
 
 // Tables of far light that groups of one colour share.
@@ -72,6 +75,10 @@ struct SharedFarLight {
     double floor = 0;
     double differences_radius = std::numeric_limits<double>::infinity(), differences_floor = 0;
     double time_s = 0;
+    template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+        archive(self.needed, self.exact_radius, self.exact_eps, self.radius, self.floor,
+                self.differences_radius, self.differences_floor, self.time_s);
+    }
 };
 
 // A colour's PSFs, as far as plans need to know them.
@@ -83,6 +90,11 @@ struct ColourFacts {
     std::vector<FarLight> far_lights; // at FarTables::places(), if plans may use them
     std::optional<FarReach> far;
     double far_varies = 0; // largest difference between those places, as a share of the brightest
+
+    template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
+        archive(self.profile, self.bandwidth, self.varies, self.is_complete, self.far_lights,
+                self.far, self.far_varies);
+    }
 };
 
 // What exact far light is made to, so that stars of `densest` e- in a pixel are off by a small part of

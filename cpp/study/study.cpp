@@ -63,7 +63,7 @@ void write_csv(const Study &study, const std::string &folder) {
     for (const auto &[key, table] : study) {
         const std::string text = as_csv(table);
         NewFile file(folder + "/" + study_file(key) + ".csv", true);
-        file.write(std::as_bytes(std::span(text)), false);
+        file.append(std::as_bytes(std::span(text)));
         file.publish();
     }
 }

@@ -4,6 +4,7 @@
 #include "check.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -64,8 +65,8 @@ static double worst(const double *a, const double *b) {
 static void check_store(void) {
     const double x[] = {1010.3, 1040.7, 1063.5}, y[] = {1020.1, 1050, 1000};
     const double flux[] = {5000, 300, 2000};
-    static double first[N * N], second[N * N];
-    int64_t empty = -1, held = -1;
+    static double first[N * N], again[N * N], second[N * N];
+    int64_t empty = -1, held = -1, from_file = -1;
     wfpsf_scene_store *store = NULL;
     wfpsf_options *options = options_of(0.1, 100);
     wfpsf_catalogue *catalogue = catalogue_of(3, x, y, flux);
@@ -77,12 +78,30 @@ static void check_store(void) {
     render(catalogue, options, first);
     CHECK_OK(wfpsf_scene_store_memory(store, &held));
     CHECK(held > 0);
+    CHECK_OK(wfpsf_scene_store_write(store, "capi_scene.store"));
     wfpsf_scene_store_destroy(store); /* options share it */
-    render(catalogue, options, second);
-    CHECK(worst(first, second) <= 2 * 0.1 * sqrt(100));
+    render(catalogue, options, again);
+    CHECK(worst(first, again) <= 2 * 0.1 * sqrt(100));
     CHECK_OK(wfpsf_options_set_scene_store(options, NULL));
     render(catalogue, options, second);
     CHECK(worst(first, second) <= 2 * 0.1 * sqrt(100));
+
+    /* A store from a file gives the same bits. */
+    CHECK_OK(wfpsf_scene_store_create(&store));
+    CHECK_OK(wfpsf_scene_store_read(store, "capi_scene.store"));
+    CHECK_OK(wfpsf_scene_store_memory(store, &from_file));
+    CHECK(from_file == held);
+    CHECK_OK(wfpsf_options_set_scene_store(options, store));
+    render(catalogue, options, second);
+    CHECK(worst(again, second) == 0);
+    CHECK_STATUS(WFPSF_ERROR_FILE_OPEN, wfpsf_scene_store_read(store, "no such file"));
+    CHECK_STATUS(WFPSF_ERROR_FILE_WRITE, wfpsf_scene_store_write(store, "no such folder/file"));
+    CHECK_STATUS(WFPSF_ERROR_NULL, wfpsf_scene_store_read(NULL, "capi_scene.store"));
+    CHECK_STATUS(WFPSF_ERROR_NULL, wfpsf_scene_store_read(store, NULL));
+    CHECK_STATUS(WFPSF_ERROR_NULL, wfpsf_scene_store_write(NULL, "capi_scene.store"));
+    CHECK_STATUS(WFPSF_ERROR_NULL, wfpsf_scene_store_write(store, NULL));
+    wfpsf_scene_store_destroy(store);
+    remove("capi_scene.store");
     CHECK_STATUS(WFPSF_ERROR_NULL, wfpsf_scene_store_create(NULL));
     CHECK_STATUS(WFPSF_ERROR_NULL, wfpsf_scene_store_memory(NULL, &held));
     CHECK_STATUS(WFPSF_ERROR_NULL, wfpsf_options_set_scene_store(NULL, NULL));

@@ -62,6 +62,15 @@ class Scenes(unittest.TestCase):
         self.assertGreater(held, 0)
         self.assertEqual(made(scene_store=store, scene_exposures=50), 0)
         self.assertEqual(store.memory, held)
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "roman.store")
+            store.write(path)
+            again = wfpsf.SceneStore()
+            again.read(path)
+            self.assertEqual(again.memory, held)
+            self.assertEqual(made(scene_store=again, scene_exposures=50), 0)
+            with self.assertRaises(wfpsf.WfpsfError):
+                again.read(os.path.join(folder, "none"))
         self.assertGreater(made(), 0)
         with self.assertRaises((TypeError, ctypes.ArgumentError)):
             made(scene_store="store")

@@ -273,6 +273,8 @@ module wfpsf
         procedure :: create => scene_store_create
         procedure :: destroy => scene_store_destroy
         procedure :: memory => scene_store_memory
+        procedure :: write => scene_store_write
+        procedure :: read => scene_store_read
         final :: scene_store_finalize
     end type wfpsf_scene_store
 
@@ -1841,7 +1843,8 @@ module wfpsf
     private :: scene_create, scene_destroy, scene_get, scene_get_group, scene_groups_of, scene_text
     private :: scene_render, scene_truth, scene_finalize
     private :: rendering_destroy, rendering_get, rendering_finalize
-    private :: scene_store_create, scene_store_destroy, scene_store_memory, scene_store_finalize
+    private :: scene_store_create, scene_store_destroy, scene_store_memory, scene_store_write
+    private :: scene_store_read, scene_store_finalize
     interface
         module subroutine scene_store_create(self, stat, errmsg)
             class(wfpsf_scene_store), intent(inout) :: self
@@ -1861,6 +1864,23 @@ module wfpsf
             integer, intent(out), optional :: stat
             character(len=*), intent(inout), optional :: errmsg
         end subroutine scene_store_memory
+
+        ! What it holds to a file, for other processes: in place of one that is there, and for this
+        ! version of the library on machines of this kind alone.
+        module subroutine scene_store_write(self, path, stat, errmsg)
+            class(wfpsf_scene_store), intent(in) :: self
+            character(len=*), intent(in) :: path
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine scene_store_write
+
+        ! Adds what such a file holds.
+        module subroutine scene_store_read(self, path, stat, errmsg)
+            class(wfpsf_scene_store), intent(in) :: self
+            character(len=*), intent(in) :: path
+            integer, intent(out), optional :: stat
+            character(len=*), intent(inout), optional :: errmsg
+        end subroutine scene_store_read
 
         impure elemental module subroutine scene_store_finalize(self)
             type(wfpsf_scene_store), intent(inout) :: self

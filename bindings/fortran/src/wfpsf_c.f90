@@ -2160,6 +2160,24 @@ module wfpsf_c
             integer(c_int32_t) :: outcome
         end function wfpsf_scene_store_memory
 
+        function wfpsf_scene_store_write(store, path) &
+            bind(c, name="wfpsf_scene_store_write") result(outcome)
+            import :: c_char, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: store
+            character(kind=c_char), intent(in), optional :: path(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_scene_store_write
+
+        function wfpsf_scene_store_read(store, path) &
+            bind(c, name="wfpsf_scene_store_read") result(outcome)
+            import :: c_char, c_int32_t, c_ptr
+            implicit none
+            type(c_ptr), value :: store
+            character(kind=c_char), intent(in), optional :: path(*)
+            integer(c_int32_t) :: outcome
+        end function wfpsf_scene_store_read
+
         function wfpsf_options_set_scene_store(options, store) &
             bind(c, name="wfpsf_options_set_scene_store") result(outcome)
             import :: c_int32_t, c_ptr

@@ -205,6 +205,14 @@ contains
         call report(wfpsf_scene_store_memory(self%pointer, bytes), stat, errmsg)
     end procedure scene_store_memory
 
+    module procedure scene_store_write
+        call report(wfpsf_scene_store_write(self%pointer, c_text(path)), stat, errmsg)
+    end procedure scene_store_write
+
+    module procedure scene_store_read
+        call report(wfpsf_scene_store_read(self%pointer, c_text(path)), stat, errmsg)
+    end procedure scene_store_read
+
     module procedure scene_store_finalize
         call self%destroy()
     end procedure scene_store_finalize

@@ -37,7 +37,7 @@ contains
         real(real64), target :: drawn(64, 64)
         real(real64) :: made(2)
         integer(int64) :: bytes(2)
-        integer :: k
+        integer :: k, status, file
 
         bytes = -1
         made = -1
@@ -61,11 +61,20 @@ contains
         end do
         call expect(made(1) > 0 .and. nint(made(2)) == 0, "PSFs are made once")
         call expect(bytes(1) > 0 .and. bytes(2) == bytes(1), "memory of a store")
+        call store%write("test_scene.store")
         call store%destroy()
         call scene%create(roman, "J129", 7, catalogue, image, corner, corner, options=options)
         call scene%render(image, rendering)
         call rendering%get(wfpsf_rendering_exact_psfs, made(2))
         call expect(nint(made(2)) == 0, "options share the store")
+        call store%create()
+        call store%read("test_scene.store")
+        call store%memory(bytes(2))
+        call expect(bytes(2) == bytes(1), "a store from a file")
+        call store%read("no such file", stat=status)
+        call expect(status == wfpsf_error_file_open, "no such file")
+        open(newunit=file, file="test_scene.store")
+        close(file, status="delete")
         call options%set_scene_store()
         call scene%create(roman, "J129", 7, catalogue, image, corner, corner, options=options)
         call scene%render(image, rendering)

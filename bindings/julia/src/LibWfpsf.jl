@@ -1417,6 +1417,18 @@ function wfpsf_scene_store_memory(store, bytes)
         store, bytes)
 end
 
+const wfpsf_scene_store_write_pointer = Ref(C_NULL)
+function wfpsf_scene_store_write(store, path)
+    return ccall(wfpsf_scene_store_write_pointer[], Int32, (Ptr{Cvoid}, Cstring),
+        store, path)
+end
+
+const wfpsf_scene_store_read_pointer = Ref(C_NULL)
+function wfpsf_scene_store_read(store, path)
+    return ccall(wfpsf_scene_store_read_pointer[], Int32, (Ptr{Cvoid}, Cstring),
+        store, path)
+end
+
 const wfpsf_options_set_scene_store_pointer = Ref(C_NULL)
 function wfpsf_options_set_scene_store(options, store)
     return ccall(wfpsf_options_set_scene_store_pointer[], Int32, (Ptr{Cvoid}, Ptr{Cvoid}),
@@ -1679,6 +1691,8 @@ const pointers = [
     :wfpsf_scene_store_create => wfpsf_scene_store_create_pointer,
     :wfpsf_scene_store_destroy => wfpsf_scene_store_destroy_pointer,
     :wfpsf_scene_store_memory => wfpsf_scene_store_memory_pointer,
+    :wfpsf_scene_store_write => wfpsf_scene_store_write_pointer,
+    :wfpsf_scene_store_read => wfpsf_scene_store_read_pointer,
     :wfpsf_options_set_scene_store => wfpsf_options_set_scene_store_pointer,
     :wfpsf_scene_create => wfpsf_scene_create_pointer,
     :wfpsf_scene_destroy => wfpsf_scene_destroy_pointer,

@@ -186,6 +186,27 @@ function Base.getproperty(store::SceneStore, name::Symbol)
 end
 
 """
+    write_scene_store(path, store)
+
+Writes what a [`SceneStore`](@ref) holds to a file, for other processes: a detector's first scene
+then takes no longer than its further ones. The file takes the place of one that is there, and is
+for this version of the library on machines of this kind alone.
+"""
+function write_scene_store(path::AbstractString, store::SceneStore)
+    check(LibWfpsf.wfpsf_scene_store_write(store, path))
+end
+
+"""
+    read_scene_store!(store, path)
+
+Adds what such a file holds to a [`SceneStore`](@ref), and returns it.
+"""
+function read_scene_store!(store::SceneStore, path::AbstractString)
+    check(LibWfpsf.wfpsf_scene_store_read(store, path))
+    return store
+end
+
+"""
     Scene(instrument, band, sca, catalogue, image, x0 = 1, y0 = 1; observation = nothing,
           options...)
     Scene(f, ...)

@@ -52,6 +52,14 @@ end
     @test held > 0
     @test made(scene_store = store, scene_exposures = 50) == 0
     @test store.memory == held
+    mktempdir() do folder
+        path = joinpath(folder, "roman.store")
+        write_scene_store(path, store)
+        again = read_scene_store!(SceneStore(), path)
+        @test again.memory == held
+        @test made(scene_store = again, scene_exposures = 50) == 0
+        @test_throws WfpsfError read_scene_store!(again, joinpath(folder, "none"))
+    end
     @test made() > 0
 end
 

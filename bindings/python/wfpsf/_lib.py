@@ -608,6 +608,8 @@ FUNCTIONS = {
     "wfpsf_scene_store_create": (c_int32, [POINTER(wfpsf_scene_store_p)]),
     "wfpsf_scene_store_destroy": (None, [wfpsf_scene_store_p]),
     "wfpsf_scene_store_memory": (c_int32, [wfpsf_scene_store_p, POINTER(c_int64)]),
+    "wfpsf_scene_store_write": (c_int32, [wfpsf_scene_store_p, c_char_p]),
+    "wfpsf_scene_store_read": (c_int32, [wfpsf_scene_store_p, c_char_p]),
     "wfpsf_options_set_scene_store": (c_int32, [wfpsf_options_p, wfpsf_scene_store_p]),
     "wfpsf_scene_create": (c_int32, [wfpsf_instrument_p, wfpsf_observation_p, c_char_p, c_int32,
         wfpsf_catalogue_p, wfpsf_image_p, c_double, c_double, wfpsf_options_p,

@@ -162,6 +162,16 @@ class SceneStore(Handle):
         check(lib.wfpsf_scene_store_memory(self, held))
         return held.value
 
+    def write(self, path):
+        """Writes what it holds to a file, for other processes: a detector's first scene then takes no
+        longer than its further ones. The file takes the place of one that is there, and is for this
+        version of the library on machines of this kind alone."""
+        check(lib.wfpsf_scene_store_write(self, text("path", path)))
+
+    def read(self, path):
+        """Adds what such a file holds."""
+        check(lib.wfpsf_scene_store_read(self, text("path", path)))
+
 
 class Scene(Properties, Handle):
     """All sources of a catalogue on an image of detector ``sca``, each modelled as far as an error

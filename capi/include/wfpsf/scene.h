@@ -68,6 +68,26 @@ WFPSF_EXPORT void wfpsf_scene_store_destroy(wfpsf_scene_store *store);
 WFPSF_EXPORT wfpsf_status wfpsf_scene_store_memory(const wfpsf_scene_store *store, int64_t *bytes);
 
 /**
+ * Writes what a store holds to a file, for other processes: a detector's first scene then takes no
+ * longer than its further ones. The file appears whole or not at all, and takes the place of one
+ * that is there. It is about as large as wfpsf_scene_store_memory() tells, and for this version of
+ * the library on machines of this kind alone.
+ *
+ * Given:    path  of the file
+ * Status:   ERROR_NULL, ERROR_FILE_WRITE, ERROR_NO_MEMORY
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_scene_store_write(const wfpsf_scene_store *store, const char *path);
+
+/**
+ * Adds what a file holds that wfpsf_scene_store_write() made; the store may hold that of several.
+ * A file that is damaged, or of another version, changes nothing.
+ *
+ * Given:    path  of the file
+ * Status:   ERROR_NULL, ERROR_FILE_OPEN, ERROR_FILE_FORMAT, ERROR_NO_MEMORY
+ */
+WFPSF_EXPORT wfpsf_status wfpsf_scene_store_read(wfpsf_scene_store *store, const char *path);
+
+/**
  * Scenes and exposures that are created with these options share a store; NULL: each makes its own.
  *
  * Status:   ERROR_NULL

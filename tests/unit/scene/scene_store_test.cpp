@@ -4,6 +4,8 @@
 #include "large_case.hpp"
 #include "scene/render.hpp"
 #include "scenes.hpp"
+#include "unit/image/status_of.hpp"
+#include "unit/image/temporary_folder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -80,6 +82,35 @@ TEST(SceneStore, BroadbandScenesAreWhatTheyAreAlone) {
     const Rendered alone = rendered(optics, stars(2), {});
     EXPECT_GT(alone.report.exact_psfs, 0);
     EXPECT_LE(worst(second, alone.image), 2); // either may be off by what is allowed
+}
+
+TEST(SceneStore, FromAFileGivesTheSameBits) {
+    const TemporaryFolder folder;
+    const std::string path = folder.path("store");
+    const Light light =
+        detected_light(Instrument::get("roman-c9").band("J129"), black_body_sed(5000));
+    const SceneOptics optics = scenes::roman("J129", {light});
+    const SceneReuse reuse{std::make_shared<SceneStore>(), 20};
+    rendered(optics, stars(1), reuse);
+    reuse.store->write(path);
+    const SceneReuse again{std::make_shared<SceneStore>(), 20};
+    again.store->read(path);
+    EXPECT_EQ(again.store->memory(), reuse.store->memory());
+    const Rendered second = rendered(optics, stars(2), again);
+    EXPECT_EQ(second.report.exact_psfs, 0);
+    EXPECT_EQ(worst(second, rendered(optics, stars(2), reuse).image), 0);
+    // Of other optics beside them, in one store.
+    const SceneReuse others{std::make_shared<SceneStore>(), 20};
+    rendered(scenes::roman("J129", {light}, 9), stars(1), others);
+    const int64_t held = others.store->memory();
+    others.store->read(path);
+    EXPECT_EQ(others.store->memory(), held + again.store->memory());
+    // What is damaged changes nothing.
+    std::string damaged = read_text(path);
+    damaged[damaged.size() / 2] ^= 1;
+    write_text(path, damaged);
+    EXPECT_EQ(status_of([&] { again.store->read(path); }), WFPSF_ERROR_FILE_FORMAT);
+    EXPECT_EQ(again.store->memory(), reuse.store->memory());
 }
 
 TEST(SceneStore, OtherOpticsShareNothing) {
