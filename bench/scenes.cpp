@@ -9,6 +9,12 @@
 
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace wfpsf::bench {
 
@@ -155,21 +161,51 @@ struct Stars {
     double bright, faint; // AB magnitudes
     double slope = 0.4;   // of the counts, dex a magnitude
     int exposures = 1;    // of the same detector: one of the later ones is timed
+    // In a process that begins with a store's file, which it takes time to read.
+    bool from_file = false;
+
+    std::vector<PlacedSource> on(const SceneImage &image, unsigned seed = 1) const {
+        return scenes::stars({count, bright, faint, slope, zero_flux}, image, 32, 1, seed);
+    }
+    const char *kind() const {
+        return from_file ? "from a file, " : exposures > 1 ? "a further exposure, " : "";
+    }
 };
+
+// What is kept of an exposure with other stars.
+std::shared_ptr<SceneStore> made_store(const SceneOptics &optics, const Stars &field,
+                                       const SceneImage &image, const SceneBudget &budget) {
+    constexpr unsigned another = 2;
+    const SceneReuse reuse{std::make_shared<SceneStore>(), static_cast<double>(field.exposures)};
+    Plane<float> drawn(image.nx, image.ny);
+    render(optics, ScenePlan(optics, field.on(image, another), {}, budget, image, reuse),
+           drawn.view(), 1);
+    return reuse.store;
+}
+
+// Does work in a process of its own, so that this one's memory is as it was.
+void elsewhere(const std::function<void()> &work) {
+    const pid_t child = fork();
+    if (child == 0) {
+        work();
+        _exit(0);
+    }
+    int status = 1;
+    if (child < 0 || waitpid(child, &status, 0) != child || status != 0)
+        std::abort();
+}
 
 Case stars_case(const Stars &field, double noise, double target_s, bool with_error) {
     char name[120];
     std::snprintf(name, sizeof name, "%s%.3g stars AB %g..%g%s on 4088^2, %g of the noise",
-                  field.exposures > 1 ? "a further exposure, " : "",
-                  static_cast<double>(field.count), field.bright, field.faint,
+                  field.kind(), static_cast<double>(field.count), field.bright, field.faint,
                   field.slope < 0.1 ? " evenly" : "", noise);
     return {name, "largest error / error allowed", target_s, 1, [=] {
                 const SceneOptics optics =
                     scenes::roman("J129", {detected_light(Instrument::get("roman-c9").band("J129"),
                                                           black_body_sed(5000))});
                 const SceneImage image{.nx = detector_pixels, .ny = detector_pixels};
-                std::vector<PlacedSource> stars = scenes::stars(
-                    {field.count, field.bright, field.faint, field.slope, zero_flux}, image, 32);
+                std::vector<PlacedSource> stars = field.on(image);
                 const SceneBudget budget{.noise = noise, .variance = variance};
                 Plane<float> drawn(image.nx, image.ny);
                 Measured m;
@@ -177,19 +213,19 @@ Case stars_case(const Stars &field, double noise, double target_s, bool with_err
                 std::vector<PlacedSource> kept;
                 if (with_error)
                     kept = stars;
-                SceneReuse reuse;
-                if (field.exposures > 1) {
-                    reuse = {std::make_shared<SceneStore>(), static_cast<double>(field.exposures)};
-                    constexpr unsigned another = 2;
-                    const ScenePlan plan(optics,
-                                         scenes::stars({field.count, field.bright, field.faint,
-                                                        field.slope, zero_flux},
-                                                       image, 32, 1, another),
-                                         {}, budget, image, reuse);
-                    render(optics, plan, drawn.view(), 1);
-                }
+                SceneReuse reuse{{}, static_cast<double>(field.exposures)};
+                const std::string file = std::filesystem::temp_directory_path() /
+                                         ("wfpsf-bench-" + std::to_string(getpid()));
+                if (field.from_file)
+                    elsewhere([&] { made_store(optics, field, image, budget)->write(file); });
+                else if (field.exposures > 1)
+                    reuse.store = made_store(optics, field, image, budget);
                 m.timing = time(
                     [&] {
+                        if (field.from_file) {
+                            reuse.store = std::make_shared<SceneStore>();
+                            reuse.store->read(file);
+                        }
                         for (int64_t y = 0; y < drawn.ny(); ++y) // may be drawn before
                             std::fill_n(drawn.view().row(y), drawn.nx(), 0.0F);
                         // Only what takes long enough to be drawn once need not be copied.
@@ -201,6 +237,7 @@ Case stars_case(const Stars &field, double noise, double target_s, bool with_err
                         render(optics, plan, drawn.view(), 1);
                     },
                     1);
+                std::filesystem::remove(file);
                 constexpr size_t few = 10;
                 if (with_error)
                     m.error = (kept.size() > few ? largest_error : largest_error_about)(
@@ -227,6 +264,14 @@ std::vector<Case> scene_cases() {
         cases.push_back(
             stars_case({.count = 100000, .bright = bright, .faint = 28, .exposures = 50}, 0.01, 5,
                        bright == 24));
+    const auto from_file = [&cases](int64_t count, double bright, double faint, double target_s) {
+        const Stars field{
+            .count = count, .bright = bright, .faint = faint, .exposures = 50, .from_file = true};
+        cases.push_back(stars_case(field, 0.01, target_s, target_s == 0));
+    };
+    from_file(100000, 20, 28, 5);
+    from_file(100000, 12, 28, 5);
+    from_file(3, 12, 12.5, 0);
     for (const double noise : {0.1, 0.01}) // a crowd
         cases.push_back(stars_case({100000, 20, 26, 0.001}, noise, 0, false));
     cases.push_back(stars_case({10000000, 26, 28}, 1, 0, false));

@@ -2,6 +2,7 @@
 #include "scene/exposure.hpp"
 
 #include "error/error.hpp"
+#include "image/archive.hpp"
 #include "image/fits.hpp"
 #include "scene/fingerprint.hpp"
 #include "scene/render.hpp"
@@ -9,12 +10,29 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
+#include <span>
 
 namespace wfpsf {
 
 namespace {
 
 constexpr const char *key_name = "SCENEKEY";
+
+void add(Fingerprint &print, const VaryingIpc &ipc) {
+    for (const auto &[dx, dy] : ipc.offsets()) {
+        print.add(dx);
+        print.add(dy);
+    }
+    Plane<double> taps(ipc.nx(), std::ssize(ipc.offsets()));
+    ByteSum sum; // quicker, and there are many
+    for (int64_t y = 0; y < ipc.ny(); ++y) {
+        ipc.taps(y, taps.view());
+        for (int64_t k = 0; k < taps.ny(); ++k)
+            sum.add(std::as_bytes(std::span(taps.view().row(k), static_cast<size_t>(taps.nx()))));
+    }
+    print.add(sum.value());
+}
 
 void add(Fingerprint &print, const Chain &chain) {
     for (const Step &step : chain.steps()) {
@@ -27,6 +45,10 @@ void add(Fingerprint &print, const Chain &chain) {
                 for (int64_t x = 0; x < taps.nx; ++x)
                     print.add(taps(x, y));
         }
+        print.add(static_cast<int32_t>(step.form));
+        print.add(static_cast<int32_t>(step.edge));
+        if (step.varying)
+            add(print, *step.varying);
         for (int64_t y = 0; y < step.map.ny(); ++y)
             for (int64_t x = 0; x < step.map.nx(); ++x)
                 print.add(static_cast<double>(step.map(x, y)));

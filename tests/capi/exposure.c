@@ -69,6 +69,26 @@ static wfpsf_exposure *exposure_of(const wfpsf_catalogue *catalogue, const wfpsf
     return exposure;
 }
 
+/* IPC of 0.01 but for one pixel, whose alpha is another. */
+static wfpsf_chain *varying_chain(float alpha) {
+    float *map = malloc(sizeof(float) * 4088 * 4088);
+    wfpsf_image *image = NULL;
+    wfpsf_varying_ipc *ipc = NULL;
+    wfpsf_chain *chain = NULL;
+    CHECK(map != NULL);
+    for (int64_t i = 0; i < 4088 * 4088; ++i)
+        map[i] = 0.01f;
+    map[2000 * 4088 + 3000] = alpha;
+    CHECK_OK(wfpsf_image_wrap(WFPSF_FLOAT32, map, 4088, 4088, 1, 4088, 1, &image));
+    CHECK_OK(wfpsf_varying_ipc_create_maps(image, NULL, NULL, NULL, &ipc));
+    CHECK_OK(wfpsf_chain_create(&chain));
+    CHECK_OK(wfpsf_chain_add_varying_ipc(chain, ipc, WFPSF_IPC_SCATTER, WFPSF_EDGE_ZERO));
+    wfpsf_varying_ipc_destroy(ipc);
+    wfpsf_image_destroy(image);
+    free(map);
+    return chain;
+}
+
 int main(void) {
     char folder[] = "/tmp/wfpsf_exposure_XXXXXX";
     CHECK(mkdtemp(folder) != NULL);
@@ -131,6 +151,24 @@ int main(void) {
     CHECK(made == 1);
     CHECK_NEAR((double)second[1000 * 4088 + 1000], 50, 0.1);
     free(second);
+    CHECK(remove(path) == 0);
+
+    /* Another varying IPC is another exposure, wherever on the detector it differs. */
+    for (int k = 0; k < 2; ++k) {
+        wfpsf_chain *varying = varying_chain(k == 0 ? 0.01f : 0.0101f);
+        wfpsf_exposure *with_ipc = exposure_of(catalogue, varying, 5);
+        if (k == 0) {
+            CHECK_OK(wfpsf_exposure_make(with_ipc, 8, folder, options, &made));
+            CHECK_OK(wfpsf_exposure_make(with_ipc, 8, folder, options, &made));
+            CHECK(made == 0);
+            CHECK_OK(wfpsf_options_set_integer(options, WFPSF_OPTION_FITS_OVERWRITE, 0));
+        } else {
+            CHECK_FAILS(WFPSF_ERROR_FILE_WRITE, "exposure_00012_sca08.fits",
+                        wfpsf_exposure_make(with_ipc, 8, folder, options, &made));
+        }
+        wfpsf_exposure_destroy(with_ipc);
+        wfpsf_chain_destroy(varying);
+    }
     CHECK(remove(path) == 0);
 
     CHECK_FAILS(WFPSF_ERROR_RANGE, "sca = 19", wfpsf_exposure_make(means, 19, folder, NULL, NULL));
