@@ -8,6 +8,9 @@
 
 namespace wfpsf {
 
+// Fringes are left out that are no more than that share of its brightest.
+inline constexpr double lost_in_halo = 2e-3;
+
 class Halo {
   public:
     Halo() = default; // none

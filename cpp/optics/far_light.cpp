@@ -112,9 +112,9 @@ FarLight::FarLight(const FarSource &source, const PupilEdges &edges, Parts parts
       edge_fringes_(source, edges, parts.wide, parts.visibility, spikes_.fringes),
       rim_fringes_(source, parts.middle, parts.visibility,
                    points_for_fringes(std::move(parts.rims.own), parts.arcs, source, edges),
-                   known_rims(edges, parts.arcs)),
+                   known_rims(edges, parts.arcs), halo_),
       corner_fringes_(source, parts.narrow, parts.visibility, corners(source, edges),
-                      known_corners(spikes_.fringes)) {}
+                      known_corners(spikes_.fringes), halo_) {}
 
 void FarLight::add(const PixelRow &row, double floor) const {
     halo_.add(row, floor);

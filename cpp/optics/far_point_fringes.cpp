@@ -35,7 +35,7 @@ size_t seen_from(size_t point, size_t, const Corner &) {
 template <class Point>
 PointFringes<Point>::PointFringes(const FarSource &source, const EdgeColours &colours,
                                   std::shared_ptr<const Visibility> visibility,
-                                  std::vector<Point> points, const Known &known)
+                                  std::vector<Point> points, const Known &known, const Halo &halo)
     : points_(std::move(points)), visibility_(std::move(visibility)), nearest_(source.nearest),
       wavelength_(source.mean_wavelength()), pixel_(source.pixel()),
       scale_(1 / (2 * pi * pi * source.area())), per_across_(colours.per_across()) {
@@ -43,12 +43,13 @@ PointFringes<Point>::PointFringes(const FarSource &source, const EdgeColours &co
         rings_.push_back(ring(nearest_, j));
     rings_.push_back(fringes_end);
     for (size_t i = 0; i < colours.edges().size(); ++i)
-        edges_.push_back(edge(colours, i, known));
+        edges_.push_back(edge(colours, i, known, halo));
 }
 
 template <class Point>
 typename PointFringes<Point>::Edge PointFringes<Point>::edge(const EdgeColours &colours, size_t i,
-                                                             const Known &known) const {
+                                                             const Known &known,
+                                                             const Halo &halo) const {
     constexpr double faint = 4e-3; // as a share of the edge's own light
     Edge out{colours.edges()[i]};
     const auto &[nx, ny] = out.edge.axes;
@@ -64,7 +65,8 @@ typename PointFringes<Point>::Edge PointFringes<Point>::edge(const EdgeColours &
             for (const double r : std::span(rings_).first(rings_.size() - 1)) {
                 const double here = brightest * most(out.edge, pair.point, side, r);
                 const double own = scale_ / 2 * std::pow(out.edge.length / r, 2);
-                pair.most.push_back(here < faint * own ? 0 : here);
+                pair.most.push_back(here < faint * own + lost_in_halo * halo.brightest(r) ? 0
+                                                                                          : here);
             }
             pair.most.push_back(0);
             for (size_t j = pair.most.size() - 1; j-- > 0;)

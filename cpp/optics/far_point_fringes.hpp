@@ -4,6 +4,7 @@
 #pragma once
 
 #include "optics/far_corners.hpp"
+#include "optics/far_halo.hpp"
 #include "optics/far_rims.hpp"
 #include "optics/far_visibility.hpp"
 
@@ -22,7 +23,7 @@ template <class Point> class PointFringes {
     PointFringes() = default; // none
     PointFringes(const FarSource &source, const EdgeColours &colours,
                  std::shared_ptr<const Visibility> visibility, std::vector<Point> points,
-                 const Known &known);
+                 const Known &known, const Halo &halo);
 
     // Adds fractions of the light, where they may be above the floor.
     void add(const PixelRow &row, double floor) const;
@@ -55,7 +56,7 @@ template <class Point> class PointFringes {
             archive(self.edge, self.waves, self.pairs[0], self.pairs[1]);
         }
     };
-    Edge edge(const EdgeColours &colours, size_t i, const Known &known) const;
+    Edge edge(const EdgeColours &colours, size_t i, const Known &known, const Halo &halo) const;
     // Of the light with a point, per amplitude of the edge.
     double most(const EdgeColours::Edge &edge, size_t point, size_t side, double r) const;
 

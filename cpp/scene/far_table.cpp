@@ -86,7 +86,7 @@ template <class T>
 void FarTables::add(const Star &star, double x, double y, double inner, double floor, View<T> image,
                     int64_t first_row, int64_t last_row) const {
     middle_.add(star, inner, floor, image, first_row, last_row);
-    constexpr double little = 0.1; // of the floor
+    constexpr double little = 0.3; // of the floor
     const auto powers = [](double at, double low, double high) {
         const double u = std::clamp(2 * (at - low) / (high - low) - 1, -1.0, 1.0);
         return std::array{u, 1.0, u * u};

@@ -10,7 +10,6 @@
 #include <cmath>
 #include <cstdio>
 #include <iterator>
-#include <numbers>
 #include <tuple>
 
 namespace wfpsf {
@@ -24,19 +23,29 @@ double bandwidth_of(const Light &light) {
 }
 
 // The largest difference of the far light of other places from that of the first, as a share of the
-// brightest there.
+// brightest there: about a circle.
 double far_variation(std::span<const FarLight> at_places) {
-    constexpr int directions = 720;
-    const FarLight &first = at_places[0];
-    const double r = 2 * first.nearest();
+    const double r = 2 * at_places[0].nearest();
+    const auto half = static_cast<int64_t>(std::ceil(r));
+    const auto middle = static_cast<double>(half);
+    const double floor = 1e-3 * at_places[0].brightest_beyond(r);
+    const auto image = [&](const FarLight &far) {
+        Plane<double> light(2 * half + 1, 2 * half + 1);
+        far.add({middle, middle, 1}, far.nearest(), floor, light.view());
+        return light;
+    };
+    const Plane<double> first = image(at_places[0]);
     double most = 0, brightest = 0;
-    for (int i = 0; i < directions; ++i) {
-        const double angle = 2 * std::numbers::pi * i / directions;
-        const double x = r * std::cos(angle), y = r * std::sin(angle);
-        const double light = first.at(x, y);
-        brightest = std::max(brightest, light);
-        for (const FarLight &other : at_places.subspan(1))
-            most = std::max(most, std::abs(light - other.at(x, y)));
+    for (const FarLight &far : at_places) {
+        const Plane<double> other = image(far);
+        for (int64_t y = 0; y < first.ny(); ++y)
+            for (int64_t x = 0; x < first.nx(); ++x)
+                if (std::abs(std::hypot(static_cast<double>(x) - middle,
+                                        static_cast<double>(y) - middle) -
+                             r) < 0.5) {
+                    brightest = std::max(brightest, first(x, y));
+                    most = std::max(most, std::abs(first(x, y) - other(x, y)));
+                }
     }
     return most / brightest;
 }

@@ -164,11 +164,12 @@ template <class T> class Renderer {
                 settings(far.exact_eps, far.exact_radius), {{}, manners_.memory_limit})[0]));
             ++report_.exact_psfs;
         }
-        constexpr double below = 0.1; // light that sums of it must not count
+        constexpr double below = 0.1,
+                         below_differences = 0.3; // light that sums of it must not count
         auto made = std::make_shared<FarTables>(
             plan_.colour(colour).far_lights, exact ? &*exact : nullptr, plan_.region(),
             FarTables::Extent{far.radius, below * far.floor, far.differences_radius,
-                              below * far.differences_floor});
+                              below_differences * far.differences_floor});
         keep(colour, {.far = far, .tables = made});
         return made;
     }
