@@ -91,6 +91,7 @@ const std::vector<double> &extra_zernikes(const wfpsf_options *options) {
 Manners manners_of(const wfpsf_options *options) {
     Manners manners;
     manners.memory_limit = static_cast<int64_t>(option(options, WFPSF_OPTION_MEMORY_LIMIT));
+    manners.threads = static_cast<int>(option(options, WFPSF_OPTION_THREADS));
     if (options && options->progress)
         manners.progress.go_on = [call = options->progress, user = options->progress_user](
                                      double part) { return call(part, user) == 0; };

@@ -158,7 +158,8 @@ wfpsf_status wfpsf_scene_create(const wfpsf_instrument *instrument,
             sources.placed(observation ? &observation->observation : nullptr, sca, zero_flux);
         ScenePlan plan(optics, std::move(placed), sources.shapes(), budget_of(i, options),
                        {x0, y0, target.nx(), target.ny(), target.oversampling()},
-                       scene_reuse(options));
+                       scene_reuse(options),
+                       static_cast<int>(option(options, WFPSF_OPTION_THREADS)));
         auto made = std::make_unique<wfpsf_scene>(
             wfpsf_scene{std::move(optics), std::move(plan), sources.size()});
         const ScenePlan &planned = made->plan;

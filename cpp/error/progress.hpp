@@ -33,6 +33,7 @@ struct Progress {
 struct Manners {
     Progress progress = {};
     int64_t memory_limit = std::numeric_limits<int64_t>::max(); // bytes, beside the caller's own
+    int threads = 1; // that it may use; the bits do not depend on their number
 
     // What needs more memory than that is not begun.
     void require_memory(int64_t bytes, const char *work) const {

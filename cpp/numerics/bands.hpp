@@ -3,6 +3,8 @@
 // bits do not depend on the number of threads.
 #pragma once
 
+#include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <exception>
 #include <thread>
@@ -30,6 +32,15 @@ template <class Work> void for_each_band(int64_t bands, Work &&work) {
     for (const std::exception_ptr &failure : failures)
         if (failure)
             std::rethrow_exception(failure);
+}
+
+// Calls work(i) for i = 0..count-1 on so many threads, which take the next one in turn.
+template <class Work> void share_out(int64_t count, int threads, const Work &work) {
+    std::atomic<int64_t> next = 0;
+    for_each_band(std::clamp<int64_t>(threads, 1, std::max<int64_t>(count, 1)), [&](int64_t) {
+        for (int64_t i = next++; i < count; i = next++)
+            work(i);
+    });
 }
 
 } // namespace wfpsf

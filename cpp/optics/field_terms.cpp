@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "optics/field_terms.hpp"
 
+#include "numerics/bands.hpp"
 #include "optics/sum_blocks.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 namespace wfpsf {
@@ -30,13 +32,24 @@ int64_t FieldTerms::memory(size_t more, double radius) const {
     return 2 * samples * static_cast<int64_t>(sizeof(double));
 }
 
-// A row at a time all that is added to stays in the cache.
-void FieldTerms::add(double radius, std::vector<double> &by_ring) {
-    const size_t own = count();
-    if (own == LejaPolynomials::count(polynomials_.degree()))
+void FieldTerms::add(size_t more, double radius, std::vector<double> &by_ring) {
+    const size_t first = count();
+    if (first == LejaPolynomials::count(polynomials_.degree()))
         polynomials_.raise();
-    Field exact = make_field_like(middle_, optics_(polynomials_.u(own), polynomials_.v(own)),
-                                  settings_, radius);
+    std::vector<std::optional<Field>> exact(more);
+    for_each_band(std::ssize(exact), [&](int64_t i) {
+        const KeptMemory kept;
+        const auto k = static_cast<size_t>(i);
+        const Optics there = optics_(polynomials_.u(first + k), polynomials_.v(first + k));
+        exact[k] = make_field_like(middle_, there, settings_, radius);
+    });
+    for (std::optional<Field> &field : exact)
+        take(std::move(*field), by_ring);
+}
+
+// A row at a time all that is added to stays in the cache.
+void FieldTerms::take(Field exact, std::vector<double> &by_ring) {
+    const size_t own = count();
     error_ = std::max(error_, exact.error);
     const int64_t half = exact.value.nx() / 2;
     for (int64_t y = -half; y <= half; ++y)

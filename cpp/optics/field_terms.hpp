@@ -25,9 +25,10 @@ class FieldTerms {
     // With so many more out to a radius, and the modes that they become, at most: bytes.
     int64_t memory(size_t more, double radius) const;
 
-    // The next one, out to `radius` native pixels. Raises by_ring, which has an entry for each
-    // native pixel's distance, to what was off there or farther, of the brightest pixel.
-    void add(double radius, std::vector<double> &by_ring);
+    // The next ones of a degree, out to `radius` native pixels, by as many threads. Raises by_ring,
+    // which has an entry for each native pixel's distance, to what was off there or farther, of the
+    // brightest pixel.
+    void add(size_t more, double radius, std::vector<double> &by_ring);
 
     // By Chebyshev's polynomials, each as large as the first term of its degree and zeros around
     // it. Those take the planes of terms that are as large, since fresh memory costs more than the
@@ -37,6 +38,7 @@ class FieldTerms {
   private:
     // Samples: a stamp's that take any of a term lie within it.
     int64_t border() const;
+    void take(Field exact, std::vector<double> &by_ring);
     void add_row_of_modes(int64_t y, std::vector<LightMode> &modes, Plane<double> &rows);
 
     const Field &middle_;

@@ -88,11 +88,14 @@ void VaryingLight::expand(const OpticsAt &optics, const Manners &manners) {
         const Progress progress = manners.progress.between(done, (1 + done) / 2);
         done = (1 + done) / 2;
         std::vector<double> by_ring(falls_.size());
-        for (size_t k = first; k < all && radius > 0; ++k) {
+        for (size_t k = first; k < all && radius > 0; k = terms.count()) {
             progress.report(static_cast<double>(k - first) / static_cast<double>(all - first));
-            terms.add(radius, by_ring);
-            if (k < tests)
+            if (k < tests) { // each tells how far the next one has to reach
+                terms.add(1, radius, by_ring);
                 radius = std::min(radius, measure(by_ring, std::pow(before_all, tests - 1 - k)));
+            } else {
+                terms.add(std::min(static_cast<size_t>(manners.threads), all - k), radius, by_ring);
+            }
         }
     }
     exact_psfs_ = static_cast<int64_t>(terms.count());

@@ -130,7 +130,8 @@ bool Exposure::make(const std::string &folder, int sca, bool overwrite, int thre
     Image image(PixelType::float32, settings_.pixels.x, settings_.pixels.y);
     const ScenePlan plan(optics, catalogue_.placed(&observation_, sca, settings_.zero_flux),
                          catalogue_.shapes(), settings_.budget,
-                         {0, 0, settings_.pixels.x, settings_.pixels.y, 1}, settings_.reuse);
+                         {0, 0, settings_.pixels.x, settings_.pixels.y, 1}, settings_.reuse,
+                         threads);
     const View<float> pixels = std::get<View<float>>(image.pixels());
     const Manners drawing{manners.progress.between(0, 0.9), manners.memory_limit};
     const RenderReport report = render(optics, plan, pixels, threads, drawing);

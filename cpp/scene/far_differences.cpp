@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/far_differences.hpp"
 
+#include "numerics/bands.hpp"
+
 #include <algorithm>
 #include <optional>
 #include <vector>
@@ -41,16 +43,19 @@ void to_coefficients(std::vector<SampledLight> &light) {
 } // namespace
 
 LightBlocks far_differences(std::span<const FarLight> at_places, const MiddleLight &middle,
-                            double radius, double floor) {
+                            double radius, double floor, int threads) {
     if (at_places.size() == 1 || radius <= middle.inner)
         return LightBlocks();
     using Which = SampledLight::Which;
     const auto fill = [&](size_t place, SampledLight &to, const SampleRange &range, Which which) {
         to.add(at_places[place], at_places[place].nearest(), floor / less, range, which);
     };
+    const auto at_each = [threads](const auto &work) {
+        share_out(std::ssize(order_of_places), threads,
+                  [&](int64_t k) { work(static_cast<size_t>(k)); });
+    };
     std::vector<SampledLight> one(places, SampledLight(1, half_width(radius)));
-    for (size_t k = 0; k < places; ++k)
-        fill(k, one[k], one[k].all(), Which::all);
+    at_each([&](size_t k) { fill(k, one[k], one[k].all(), Which::all); });
     to_coefficients(one);
     std::vector<LightSpline> of_one(one.begin() + 1, one.end());
     // Splines of differences are off by about as much of them as those of light.
@@ -64,11 +69,11 @@ LightBlocks far_differences(std::span<const FarLight> at_places, const MiddleLig
     };
     const int64_t half = middle.half_width(may_need_two);
     std::vector<SampledLight> two(places, SampledLight(2, half));
-    middle.on_runs(2, may_need_two, [&](const SampleRange &range) {
-        for (size_t k = 0; k < places; ++k) {
+    at_each([&](size_t k) {
+        middle.on_runs(2, may_need_two, [&](const SampleRange &range) {
             two[k].clear(range); // runs may share their borders
             fill(k, two[k], range, Which::between);
-        }
+        });
     });
     to_coefficients(two);
     std::vector<SampledLight> off;

@@ -19,6 +19,6 @@ inline constexpr std::array<std::pair<int, int>, 9> order_of_places{
 
 // The coefficients out to a radius, where they are above a floor.
 LightBlocks far_differences(std::span<const FarLight> at_places, const MiddleLight &middle,
-                            double radius, double floor);
+                            double radius, double floor, int threads);
 
 } // namespace wfpsf

@@ -72,21 +72,21 @@ std::vector<std::pair<double, double>> FarTables::places(const Region &image, bo
 }
 
 FarTables::FarTables(std::span<const FarLight> at_places, const Psf *exact, const Region &image,
-                     const Extent &extent)
+                     const Extent &extent, int threads)
     : FarTables(at_places, image, extent,
-                MiddleLight(at_places[0], exact, extent.radius, extent.floor)) {}
+                MiddleLight(at_places[0], exact, extent.radius, extent.floor, threads), threads) {}
 
 FarTables::FarTables(std::span<const FarLight> at_places, const Region &image, const Extent &extent,
-                     const MiddleLight &middle)
+                     const MiddleLight &middle, int threads)
     : image_(image), differences_radius_(extent.differences_radius), middle_(middle),
       differences_(far_differences(at_places, middle, extent.differences_radius,
-                                   extent.differences_floor)) {}
+                                   extent.differences_floor, threads)) {}
 
 template <class T>
 void FarTables::add(const Star &star, double x, double y, double inner, double floor, View<T> image,
                     int64_t first_row, int64_t last_row) const {
     middle_.add(star, inner, floor, image, first_row, last_row);
-    constexpr double little = 0.3; // of the floor
+    constexpr double little = 0.1; // of the floor
     const auto powers = [](double at, double low, double high) {
         const double u = std::clamp(2 * (at - low) / (high - low) - 1, -1.0, 1.0);
         return std::array{u, 1.0, u * u};

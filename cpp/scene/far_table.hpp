@@ -65,7 +65,7 @@ class FarTables {
     // `exact`, if there is one, is the PSF of the first place, and stands for its far light as far
     // as it reaches: from the pupil's edges then come the differences alone.
     FarTables(std::span<const FarLight> at_places, const Psf *exact, const Region &image,
-              const Extent &extent);
+              const Extent &extent, int threads = 1);
 
     double radius() const { return middle_.radius(); }
 
@@ -84,7 +84,7 @@ class FarTables {
     friend class ArchiveReader;
     FarTables() = default; // what an archive holds goes in
     FarTables(std::span<const FarLight> at_places, const Region &image, const Extent &extent,
-              const MiddleLight &middle);
+              const MiddleLight &middle, int threads);
 
     Region image_{};
     double differences_radius_ = 0;

@@ -46,7 +46,8 @@ int64_t half_width(double radius) {
     return static_cast<int64_t>(std::ceil(radius)) + std::max(wide, high) + beside;
 }
 
-MiddleLight::MiddleLight(const FarLight &light, const Psf *exact, double to, double least)
+MiddleLight::MiddleLight(const FarLight &light, const Psf *exact, double to, double least,
+                         int threads)
     : inner(light.nearest() + 1), radius(to), floor(least) {
     const auto first = [this](int64_t size) {
         return -static_cast<int64_t>(std::ceil(radius / static_cast<double>(size))) * size;
@@ -64,7 +65,8 @@ MiddleLight::MiddleLight(const FarLight &light, const Psf *exact, double to, dou
     const auto fill = [&](SampledLight &sampled, const SampleRange &range, Which which) {
         if (exact)
             sampled.add(*exact, range);
-        sampled.add(light, exact ? exact->settings().radius : light.nearest(), floor, range, which);
+        sampled.add(light, exact ? exact->settings().radius : light.nearest(), floor, range, which,
+                    threads);
     };
     SampledLight two(2, wfpsf::half_width(radius));
     fill(two, two.all(), Which::all);

@@ -14,7 +14,7 @@ namespace wfpsf {
 
 struct MiddleLight {
     // As far as an exact PSF reaches, if there is one, it stands for far light.
-    MiddleLight(const FarLight &light, const Psf *exact, double radius, double floor);
+    MiddleLight(const FarLight &light, const Psf *exact, double radius, double floor, int threads);
 
     struct Cell { // a part of a block, along both axes
         static constexpr int64_t size = 8;

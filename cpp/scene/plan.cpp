@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/plan.hpp"
 
+#include "numerics/bands.hpp"
 #include "scene/cost.hpp"
 #include "scene/far_table.hpp"
 #include "scene/fingerprint.hpp"
@@ -185,18 +186,18 @@ Optics SceneOptics::middle() const {
 
 ScenePlan::ScenePlan(const SceneOptics &optics, std::vector<PlacedSource> sources,
                      std::span<const GalaxyShape> shapes, const SceneBudget &budget,
-                     const SceneImage &image, const SceneReuse &reuse)
+                     const SceneImage &image, const SceneReuse &reuse, int threads)
     : budget_(budget), image_(image), reuse_(reuse), sources_(std::move(sources)),
       shapes_(shapes.begin(), shapes.end()) {
     groups_ = std::make_unique<SourceGroups>(sources_, shapes_, optics.pixel_scale_arcsec, image);
     for (const SourceGroup &group : groups_->all())
         planned_.push_back({group, {}});
-    learn_colours(optics);
+    learn_colours(optics, threads);
     choose_galaxy_cells(optics);
     choose();
 }
 
-void ScenePlan::learn_colours(const SceneOptics &optics) {
+void ScenePlan::learn_colours(const SceneOptics &optics, int threads) {
     for (size_t c = 0; c < optics.lights.size(); ++c) {
         const Light &light = optics.lights[c];
         Colour &colour = colours_.emplace_back();
@@ -209,16 +210,17 @@ void ScenePlan::learn_colours(const SceneOptics &optics) {
             if (planned.group.colour == static_cast<int32_t>(c))
                 brightest = std::max(brightest, planned.group.brightest);
         const auto known = colour.kept.facts;
-        colour.kept.facts = facts_of(optics, light, brightest, known);
+        colour.kept.facts = facts_of(optics, light, brightest, known, threads);
         if (reuse_.store && colour.kept.facts != known)
             reuse_.store->keep(colour.key, {.facts = colour.kept.facts});
     }
 }
 
 // Bright stars are seen farther; far light is known only if it matters.
-std::shared_ptr<const ColourFacts>
-ScenePlan::facts_of(const SceneOptics &optics, const Light &light, double brightest,
-                    std::shared_ptr<const ColourFacts> known) const {
+std::shared_ptr<const ColourFacts> ScenePlan::facts_of(const SceneOptics &optics,
+                                                       const Light &light, double brightest,
+                                                       std::shared_ptr<const ColourFacts> known,
+                                                       int threads) const {
     const auto matters_beyond = [&](const LightProfile &profile) {
         return brightest * profile.brightest_beyond(profile.seen()) > 0.5 * budget_.error();
     };
@@ -242,8 +244,15 @@ ScenePlan::facts_of(const SceneOptics &optics, const Light &light, double bright
     if (!is_bright)
         return made;
     facts.is_complete = true;
-    for (const auto &[x, y] : FarTables::places(region(), optics.varies))
-        if (auto there = far_light_of(optics.nearest(x, y), light, settings))
+    const auto places = FarTables::places(region(), optics.varies);
+    std::vector<std::optional<FarLight>> at_places(places.size());
+    share_out(std::ssize(places), threads, [&](int64_t i) {
+        const auto k = static_cast<size_t>(i);
+        const auto &[x, y] = places[k];
+        at_places[k] = far_light_of(optics.nearest(x, y), light, settings);
+    });
+    for (std::optional<FarLight> &there : at_places)
+        if (there)
             facts.far_lights.push_back(std::move(*there));
     if (facts.far_lights.empty())
         return made;

@@ -47,7 +47,7 @@ class ScenePlan {
   public:
     ScenePlan(const SceneOptics &optics, std::vector<PlacedSource> sources,
               std::span<const GalaxyShape> shapes, const SceneBudget &budget,
-              const SceneImage &image, const SceneReuse &reuse = {});
+              const SceneImage &image, const SceneReuse &reuse = {}, int threads = 1);
 
     const std::vector<PlacedSource> &sources() const { return sources_; } // as they are drawn
     const std::vector<GalaxyShape> &shapes() const { return shapes_; }
@@ -83,10 +83,11 @@ class ScenePlan {
         uint64_t key = 0; // of what is kept of it
         KeptPsfs kept;
     };
-    void learn_colours(const SceneOptics &optics);
+    void learn_colours(const SceneOptics &optics, int threads);
     std::shared_ptr<const ColourFacts> facts_of(const SceneOptics &optics, const Light &light,
                                                 double brightest,
-                                                std::shared_ptr<const ColourFacts> known) const;
+                                                std::shared_ptr<const ColourFacts> known,
+                                                int threads) const;
     void choose_galaxy_cells(const SceneOptics &optics);
     void collect_offers();
     std::vector<SharedFarLight> far_lights(int32_t colour) const;

@@ -119,7 +119,7 @@ template <class T> class Renderer {
         auto made = std::make_shared<VaryingLight>(
             optics_.at, optics_.varies, optics_.lights[static_cast<size_t>(colour)],
             settings(model.eps, model.radius), optics_.region,
-            Manners{manners_.progress.between(0, 0.2), manners_.memory_limit});
+            Manners{manners_.progress.between(0, 0.2), manners_.memory_limit, threads_});
         report_.exact_psfs += made->exact_psfs();
         keep(colour, {.model = model, .psf = made});
         return made;
@@ -164,12 +164,12 @@ template <class T> class Renderer {
                 settings(far.exact_eps, far.exact_radius), {{}, manners_.memory_limit})[0]));
             ++report_.exact_psfs;
         }
-        constexpr double below = 0.1,
-                         below_differences = 0.3; // light that sums of it must not count
+        constexpr double below = 0.1; // light that sums of it must not count
         auto made = std::make_shared<FarTables>(
             plan_.colour(colour).far_lights, exact ? &*exact : nullptr, plan_.region(),
             FarTables::Extent{far.radius, below * far.floor, far.differences_radius,
-                              below_differences * far.differences_floor});
+                              below * far.differences_floor},
+            threads_);
         keep(colour, {.far = far, .tables = made});
         return made;
     }
@@ -219,17 +219,14 @@ template <class T> class Renderer {
         const Way &way = planned.way;
         const LightProfile &profile = plan_.colour(planned.group.colour).profile;
         const double from = std::max(radius, way.radius);
-        const double all = profile.expected_beyond(from);
         if (way.far == 0)
-            return all;
+            return profile.expected_beyond(from);
+        // Far light is known much better than what is expected: what tables have below the floor.
         const FarTables &tables = *tables_[static_cast<size_t>(planned.group.colour)];
-        // Where far light goes on beyond tables, it is taken for all that there is.
-        const double beyond = way.far_drawing == FarDrawing::tables
-                                  ? 0
-                                  : profile.expected_beyond(std::max(from, tables.radius()));
         const FarTable &table = tables.middle();
-        return all - beyond - table.light(INFINITY, way.radius, way.far) +
-               table.light(from, way.radius, way.far);
+        const double faint = table.light(INFINITY, from, 0) - table.light(INFINITY, from, way.far);
+        const bool ends = way.far_drawing == FarDrawing::tables;
+        return faint + (ends ? profile.expected_beyond(std::max(from, tables.radius())) : 0);
     }
 
     void draw_faint_light() {

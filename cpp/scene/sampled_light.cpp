@@ -26,7 +26,7 @@ void SampledLight::copy(const SampledLight &from, const SampleRange &range) {
 
 // Samples of every sub-pixel phase are an image of native pixels of their own.
 void SampledLight::add(const FarLight &light, double inner, double floor, const SampleRange &range,
-                       Which which) {
+                       Which which, int threads) {
     const auto is_even = [](int64_t at) { return at % 2 == 0; };
     const auto star = [this](int64_t first) {
         return -static_cast<double>(first) / static_cast<double>(per_pixel);
@@ -39,7 +39,7 @@ void SampledLight::add(const FarLight &light, double inner, double floor, const 
                                     (range.nx - u + per_pixel - 1) / per_pixel,
                                     (range.ny - v + per_pixel - 1) / per_pixel, per_pixel,
                                     per_pixel * sample.view().stride_y};
-            light.add({star(range.x + u), star(range.y + v), 1}, inner, floor, phase);
+            light.add({star(range.x + u), star(range.y + v), 1}, inner, floor, phase, threads);
         }
 }
 

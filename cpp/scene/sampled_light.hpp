@@ -31,7 +31,7 @@ struct SampledLight {
     // between every second one.
     enum class Which { all, between };
     void add(const FarLight &light, double inner, double floor, const SampleRange &range,
-             Which which);
+             Which which, int threads = 1);
     // A PSF out to its radius.
     void add(const Psf &psf, const SampleRange &range);
 

@@ -32,6 +32,10 @@ double of_far(double radius) {
 // place. Such differences are off by as much of what far light is off itself.
 constexpr double interpolated = 2e-4, mixed = 0.02, of_differences = 0.06;
 
+// Far light that is drawn from edges leaves out fringes of many pairs that are fainter than the floor:
+// together some floors, where the halo is about as faint, far from where far light is off most.
+constexpr double floors_left_out = 3.5;
+
 // Of what light differs from that of the middle at most, the nearest of 3 x 3 places is off.
 constexpr double off_nearest = 0.6;
 
@@ -250,6 +254,7 @@ void Ways::add_far(const Way &way, double time_s, const SharedFarLight &far,
                 continue;
             const double left =
                 std::max(step.floor, end < farthest ? reach.brightest_beyond(end) : 0);
+            const double fringes = drawing == FarDrawing::tables ? 0 : floors_left_out * step.floor;
             const double from = std::min(std::max(step.halo, way.radius), end);
             if (end <= way.radius || colour_.profile.beyond(from) > budget_.flux)
                 continue;
@@ -260,7 +265,7 @@ void Ways::add_far(const Way &way, double time_s, const SharedFarLight &far,
             if (drawing == FarDrawing::own)
                 time += cost::making_far_light + cost::far_light(step.pixels, pixels(end)) +
                         cost::far_light(in_tables, pixels(tables_end));
-            const double local = meeting(of_psf, group_.densest * (left + off));
+            const double local = meeting(of_psf, group_.densest * std::max(left + off, fringes));
             with.far = step.floor;
             take({with, time_s + count() * time, left_out(way, local, from, left)});
         }
