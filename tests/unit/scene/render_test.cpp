@@ -51,6 +51,39 @@ TEST(Render, ErrorsOfBroadbandLightStayWithinTheBudget) {
                           {0.5, 0.05});
 }
 
+// The smooth light that stands for what is left out is no more than that: beyond the stamp of a bright
+// star that shares its PSF, all of an image's pixels are right on the average too.
+TEST(Render, SmoothLightOfBrightStarsIsWhatIsLeftOut) {
+    WFPSF_LARGE_CASE();
+    SceneOptics optics = scenes::roman(
+        "J129", {detected_light(Instrument::get("roman-c9").band("J129"), black_body_sed(5000))});
+    optics.at = [middle = optics.middle()](double, double) { return middle; };
+    optics.varies = false;
+    const SceneImage wide{.x0 = 1300, .y0 = 1300, .nx = 1401, .ny = 1401};
+    const SceneImage about{.x0 = 1800, .y0 = 1800, .nx = 401, .ny = 401};
+    const std::vector<PlacedSource> star{{2000.3, 1999.8, 8e7, 0, PlacedSource::star, 0}};
+    const ScenePlan plan(optics, star, {}, {.noise = 0.01, .variance = 100}, wide,
+                         {std::make_shared<SceneStore>(), 50});
+    const Way &way = plan.groups()[0].way;
+    ASSERT_EQ(way.drawing, Drawing::shared) << plan.text();
+    ASSERT_GT(way.far, 0) << plan.text();
+    ASSERT_LT(way.radius, 150) << plan.text();
+    Plane<double> drawn(wide.nx, wide.ny), window(about.nx, about.ny);
+    render(optics, plan, drawn.view(), 1);
+    const Plane<double> truth = scenes::brute_force(optics, star, about, 1e-9);
+    double sum = 0, count = 0;
+    for (int64_t y = 0; y < about.ny; ++y)
+        for (int64_t x = 0; x < about.nx; ++x) {
+            window(x, y) = drawn(500 + x, 500 + y);
+            if (std::max(std::abs(x - 200), std::abs(y - 200)) > 150) {
+                sum += window(x, y) - truth(x, y);
+                ++count;
+            }
+        }
+    EXPECT_LE(std::abs(sum / count), 0.05 * plan.budget().error());
+    EXPECT_LE(worst(window, truth, plan.budget().variance), plan.budget().error());
+}
+
 // Many faint stars in one place, whose wings add up.
 TEST(Render, ErrorsOfClustersStayWithinTheBudget) {
     const SceneOptics optics = scenes::roman("J129", {monochromatic(1293e-9)});
