@@ -264,14 +264,15 @@ std::vector<Case> scene_cases() {
         cases.push_back(
             stars_case({.count = 100000, .bright = bright, .faint = 28, .exposures = 50}, 0.01, 5,
                        bright == 24));
-    const auto from_file = [&cases](int64_t count, double bright, double faint, double target_s) {
+    const auto from_file = [&cases](int64_t count, double bright, double faint, double target_s,
+                                    bool with_error) {
         const Stars field{
             .count = count, .bright = bright, .faint = faint, .exposures = 50, .from_file = true};
-        cases.push_back(stars_case(field, 0.01, target_s, target_s == 0));
+        cases.push_back(stars_case(field, 0.01, target_s, with_error));
     };
-    from_file(100000, 20, 28, 5);
-    from_file(100000, 12, 28, 5);
-    from_file(3, 12, 12.5, 0);
+    from_file(100000, 20, 28, 5, false);
+    from_file(100000, 12, 28, 5, true);
+    from_file(3, 12, 12.5, 0, true);
     for (const double noise : {0.1, 0.01}) // a crowd
         cases.push_back(stars_case({100000, 20, 26, 0.001}, noise, 0, false));
     cases.push_back(stars_case({10000000, 26, 28}, 1, 0, false));

@@ -33,6 +33,8 @@ void ByteSum::add(std::span<const std::byte> bytes) {
         std::memcpy(&words, bytes.data(), sizeof(words));
         add_words(words);
     }
+    if (bytes.empty())
+        return;
     words = {};
     std::memcpy(&words, bytes.data(), bytes.size());
     add_words(words);

@@ -2,12 +2,15 @@
 /*
  * Exposures of the whole focal plane, shared out among the ranks of MPI:
  *
- *     mpirun -n 4 focal_plane FOLDER [EXPOSURES [STARS [DETECTORS]]]
+ *     mpirun -n 4 focal_plane FOLDER [EXPOSURES [STARS [DETECTORS [STORES]]]]
  *
  * Every detector of every exposure is a piece of work; rank r takes pieces r, r + size, ... The
  * files do not depend on the number of ranks: what is random in a detector is drawn by the
  * exposure's number, the detector and the pixel. A run that was broken off is run again: files that
  * are there are kept. A rank holds one detector at a time, about 0.3 GiB.
+ *
+ * With a folder STORES, PSFs of each detector are made once and kept there for all exposures of this
+ * run and others; pixels then depend on what the stores hold, within the budget.
  */
 #include <math.h>
 #include <mpi.h>
@@ -57,6 +60,22 @@ static wfpsf_catalogue *make_catalogue(double ra, double dec, int64_t count) {
     return catalogue;
 }
 
+/* What exposures of a detector share, from its file if there is one that serves. */
+static wfpsf_scene_store *open_store(const char *path) {
+    wfpsf_scene_store *store;
+    check(wfpsf_scene_store_create(&store));
+    const wfpsf_status status = wfpsf_scene_store_read(store, path);
+    if (status != WFPSF_ERROR_FILE_OPEN && status != WFPSF_ERROR_FILE_FORMAT)
+        check(status);
+    return store;
+}
+
+static int64_t memory_of(const wfpsf_scene_store *store) {
+    int64_t bytes;
+    check(wfpsf_scene_store_memory(store, &bytes));
+    return bytes;
+}
+
 int main(int argc, char **argv) {
     MPI_Init(&argc, &argv);
     int rank, size;
@@ -66,6 +85,7 @@ int main(int argc, char **argv) {
     const int exposures = argc > 2 ? atoi(argv[2]) : 1;
     const int64_t stars = argc > 3 ? atoll(argv[3]) : 100000;
     const int detectors = argc > 4 ? atoi(argv[4]) : 18;
+    const char *stores = argc > 5 ? argv[5] : NULL;
     const double ra = 53.1, dec = -27.8, dither = 0.02; /* degrees */
 
     wfpsf_instrument *roman;
@@ -80,22 +100,37 @@ int main(int argc, char **argv) {
 
     int made_here = 0, kept_here = 0;
     const double start = MPI_Wtime();
-    for (int number = 0; number < exposures; ++number) {
-        wfpsf_observation *observation;
-        wfpsf_exposure *exposure;
-        check(wfpsf_observation_create(roman, ra + number * dither, dec, 30, NULL, &observation));
-        check(wfpsf_options_set_integer(options, WFPSF_OPTION_STREAM, number));
-        check(wfpsf_exposure_create(roman, observation, "J129", catalogue, chain, options,
-                                    &exposure));
-        for (int sca = 1; sca <= detectors; ++sca) {
+    check(wfpsf_options_set_integer(options, WFPSF_OPTION_SCENE_EXPOSURES, exposures));
+    for (int sca = 1; sca <= detectors; ++sca) {
+        char path[512];
+        wfpsf_scene_store *store = NULL; /* from this rank's first piece of the detector on */
+        int64_t in_file = 0;
+        for (int number = 0; number < exposures; ++number) {
             if ((number * detectors + sca - 1) % size != rank)
                 continue;
+            if (stores && !store) {
+                snprintf(path, sizeof path, "%s/sca%02d_J129.store", stores, sca);
+                store = open_store(path);
+                in_file = memory_of(store);
+                check(wfpsf_options_set_scene_store(options, store));
+            }
+            wfpsf_observation *observation;
+            wfpsf_exposure *exposure;
+            check(
+                wfpsf_observation_create(roman, ra + number * dither, dec, 30, NULL, &observation));
+            check(wfpsf_options_set_integer(options, WFPSF_OPTION_STREAM, number));
+            check(wfpsf_exposure_create(roman, observation, "J129", catalogue, chain, options,
+                                        &exposure));
             int32_t made;
             check(wfpsf_exposure_make(exposure, sca, folder, options, &made));
             made ? ++made_here : ++kept_here;
+            wfpsf_exposure_destroy(exposure);
+            wfpsf_observation_destroy(observation);
         }
-        wfpsf_exposure_destroy(exposure);
-        wfpsf_observation_destroy(observation);
+        if (store && memory_of(store) > in_file)
+            check(wfpsf_scene_store_write(store, path));
+        check(wfpsf_options_set_scene_store(options, NULL));
+        wfpsf_scene_store_destroy(store);
     }
 
     int counts[2] = {made_here, kept_here}, all[2];

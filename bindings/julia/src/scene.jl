@@ -227,7 +227,8 @@ where the centre of its first native pixel stands on the detector, whose first p
 `observation` is for positions on the sky. Options: `scene_noise`, `scene_variance`, `scene_flux`,
 `scene_background`, `exposure_time` (for magnitudes); `scene_store`, a [`SceneStore`](@ref), and
 `scene_exposures`; `struts`, `piston_tilt`, `frame`, `field_rule`, `jitter_xx`, `jitter_xy`,
-`jitter_yy`, `charge_diffusion`, `zernikes` and `opd` as for [`PSF`](@ref).
+`jitter_yy`, `charge_diffusion`, `zernikes` and `opd` as for [`PSF`](@ref); `threads`, on which no
+bit depends.
 
 Properties: `sources` (that have a place on the detector or around it), `groups` (how many),
 `error_allowed` and `error_expected` (how far a pixel may be off, and may come to be off, e-),
@@ -253,7 +254,7 @@ mutable struct Scene <: Handle
 
     function Scene(instrument::Instrument, band::AbstractString, sca::Integer, catalogue::Catalogue,
                    image::Image, x0::Real = 1, y0::Real = 1; observation = nothing, keywords...)
-        pointer = with_options(SCENE_OPTIONS, keywords) do options
+        pointer = with_options((SCENE_OPTIONS..., :threads), keywords) do options
             created() do out
                 LibWfpsf.wfpsf_scene_create(instrument, or_null(observation), band, sca, catalogue,
                                             image, x0 - 1, y0 - 1, options, out)

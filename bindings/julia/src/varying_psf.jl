@@ -32,7 +32,7 @@ mutable struct VaryingPSF <: Handle
 end
 
 function varying(instrument, band, sca, wavelength_nm, sed, keywords)
-    return with_options(PSF_OPTIONS, keywords) do options
+    return with_options((PSF_OPTIONS..., :threads), keywords) do options
         created() do out
             LibWfpsf.wfpsf_varying_psf_create(instrument, band, sca, wavelength_nm, sed, options,
                                               out)

@@ -202,7 +202,7 @@ class Scene(Properties, Handle):
         scene_noise, scene_variance, scene_flux, scene_background, exposure_time (for magnitudes);
         scene_store, a :class:`SceneStore`, and scene_exposures; struts, piston_tilt, frame,
         field_rule, jitter_xx, jitter_xy, jitter_yy, charge_diffusion, zernikes and opd as for
-        :class:`PSF`.
+        :class:`PSF`; threads, on which no bit depends.
 
     Attributes: sources (that have a place on the detector or around it), error_allowed and
     error_expected (how far a pixel may be off, and may come to be off, e-), time_expected (of
@@ -229,7 +229,7 @@ class Scene(Properties, Handle):
                  **options):
         image = zeros(image) if isinstance(image, tuple) else as_image(image)
         self._size = len(catalogue)
-        with chosen(SCENE_OPTIONS, options) as handle:
+        with chosen(SCENE_OPTIONS + ("threads",), options) as handle:
             self._make(lambda out: lib.wfpsf_scene_create(
                 instrument, observation, text("band", band), integer("sca", sca, 32), catalogue,
                 image, x0, y0, handle, out))

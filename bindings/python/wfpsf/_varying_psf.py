@@ -29,7 +29,7 @@ class VaryingPSF(Properties, Handle):
     _properties = constants_of("WFPSF_VARYING_PSF_")
 
     def __init__(self, instrument, band, sca, wavelength_nm=0.0, sed=None, **options):
-        with chosen(PSF_OPTIONS, options) as handle:
+        with chosen(PSF_OPTIONS + ("threads",), options) as handle:
             self._make(lambda out: lib.wfpsf_varying_psf_create(
                 instrument, text("band", band), integer("sca", sca, 32), wavelength_nm,
                 sed, handle, out))

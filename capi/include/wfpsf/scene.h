@@ -167,7 +167,8 @@ typedef struct wfpsf_rendering wfpsf_rendering;
  *           options      SCENE_NOISE, SCENE_VARIANCE, SCENE_FLUX, EXPOSURE_TIME (for magnitudes),
  *                        SCENE_EXPOSURES and a scene store;
  *                        STRUTS, PISTON_TILT, FRAME, FIELD_RULE, JITTER_*, CHARGE_DIFFUSION, extra
- *                        Zernikes, an OPD map. PIXEL_RESPONSE must be 1
+ *                        Zernikes, an OPD map; THREADS, on which no bit depends. PIXEL_RESPONSE
+ *                        must be 1
  * Returned: out          the handle; NULL on failure
  * Status:   ERROR_NULL, ERROR_UNKNOWN_NAME, ERROR_RANGE, ERROR_NOT_FINITE, ERROR_SIZE (an empty
  *           image), ERROR_ARGUMENT (sky positions without an observation, another instrument's),

@@ -52,7 +52,8 @@ enum { WFPSF_VARYING_PSF_PROPERTY_LIST(WFPSF_VARYING_PSF_PROPERTY_ENUM) };
  *                          tabulated
  *           sed            of many colours, seen through the band; wavelength_nm must be 0 then.
  *                          NULL: one colour
- *           options        as for wfpsf_psf_create_in_band(); EPS is of any pixel at any place
+ *           options        as for wfpsf_psf_create_in_band(); EPS is of any pixel at any place; THREADS,
+ *                          on which no bit depends
  * Returned: out            the handle; NULL on failure
  * Status:   as for wfpsf_psf_create_chromatic(); ERROR_ARGUMENT if both a wavelength and an SED are
  *           given; WARNING_NOT_CERTIFIED

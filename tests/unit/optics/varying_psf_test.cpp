@@ -254,16 +254,17 @@ TEST(VaryingPsf, StarsOfAllKindsAreDrawnTogether) {
     }
 }
 
-TEST(VaryingPsf, EqualCallsGiveEqualBits) {
-    const auto pixel = [] {
+TEST(VaryingPsf, EqualCallsGiveEqualBitsByAnyNumberOfThreads) {
+    const auto pixel = [](int threads) {
         Plane<double> stamp(5, 5);
         VaryingPsf(roman_optics(2, "H158"), true, monochromatic(1577e-9), settings(1e-4, 4),
-                   detector)
+                   detector, {.threads = threads})
             .at(77, 3021)
             .draw({2.1, 2, 1}, 1, stamp.view());
         return stamp(2, 3);
     };
-    EXPECT_EQ(pixel(), pixel());
+    EXPECT_EQ(pixel(1), pixel(1));
+    EXPECT_EQ(pixel(1), pixel(3));
 }
 
 TEST(VaryingPsf, WorkIsBoundedAndStopped) {

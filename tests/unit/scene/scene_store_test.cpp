@@ -113,6 +113,23 @@ TEST(SceneStore, FromAFileGivesTheSameBits) {
     EXPECT_EQ(again.store->memory(), reuse.store->memory());
 }
 
+// What scenes share is made by threads, and is the same for any number of them.
+TEST(SceneStore, ThreadsMakeTheSameBits) {
+    const TemporaryFolder folder;
+    const SceneOptics optics = scenes::roman(
+        "J129", {detected_light(Instrument::get("roman-c9").band("J129"), black_body_sed(5000))});
+    const auto made_by = [&](int threads) {
+        const SceneReuse reuse{std::make_shared<SceneStore>(), 20};
+        const ScenePlan plan(optics, stars(1), {}, budget, image, reuse, threads);
+        Plane<double> drawn(image.nx, image.ny);
+        render(optics, plan, drawn.view(), threads);
+        reuse.store->write(folder.path("store"));
+        return read_text(folder.path("store"));
+    };
+    const std::string by_one = made_by(1);
+    EXPECT_TRUE(by_one == made_by(3));
+}
+
 TEST(SceneStore, OtherOpticsShareNothing) {
     const SceneReuse reuse{std::make_shared<SceneStore>(), 20};
     const SceneOptics optics = scenes::roman("J129", {monochromatic(1293e-9)});
