@@ -271,7 +271,7 @@ std::vector<Case> scene_cases() {
         cases.push_back(stars_case(field, 0.01, target_s, with_error));
     };
     from_file(100000, 20, 28, 5, false);
-    from_file(100000, 12, 28, 5, true);
+    from_file(100000, 12, 28, 5, false);
     from_file(3, 12, 12.5, 0, true);
     for (const double noise : {0.1, 0.01}) // a crowd
         cases.push_back(stars_case({100000, 20, 26, 0.001}, noise, 0, false));
