@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "optics/wavefront_pairs.hpp"
 
+#include "numerics/gamma.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -29,7 +31,7 @@ double WavefrontPairs::power(double factor, int n) const {
     for (size_t i = 1; i < share_.size(); ++i)
         if (const double difference = std::abs(factor) * step_ * static_cast<double>(i);
             difference > 0)
-            sum += share_[i] * std::exp(n * std::log(difference) - std::lgamma(n + 1));
+            sum += share_[i] * std::exp(n * std::log(difference) - log_of_gamma(n + 1));
     return sum;
 }
 

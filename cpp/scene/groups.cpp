@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "scene/groups.hpp"
 
+#include "numerics/gamma.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -92,7 +94,7 @@ double reach_of(const PlacedSource &s, const SceneImage &image) {
 // 1999).
 double mean_square_radius(double n) {
     const double b = 2 * n - 1.0 / 3 + 4 / (405 * n) + 46 / (25515 * n * n);
-    return std::exp(std::lgamma(4 * n) - std::lgamma(2 * n) - 2 * n * std::log(b));
+    return std::exp(log_of_gamma(4 * n) - log_of_gamma(2 * n) - 2 * n * std::log(b));
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "scene/hankel.hpp"
 
 #include "numerics/dispatch.hpp"
+#include "numerics/gamma.hpp"
 
 #include <algorithm>
 #include <array>
@@ -41,7 +42,7 @@ SersicHankel::SersicHankel(double n, double b) {
         const Complex s(c, step * j);
         const Complex weight =
             std::exp((s - 1.0) * std::numbers::ln2 + log_gamma(s / 2.0) - log_gamma(1.0 - s / 2.0) +
-                     n * s * std::log(b) + log_gamma(n * (2.0 - s)) - std::lgamma(2 * n)) *
+                     n * s * std::log(b) + log_gamma(n * (2.0 - s)) - log_of_gamma(2 * n)) *
             (step / pi * (j == 0 ? 0.5 : 1));
         weights_.push_back(weight);
         largest = std::max(largest, std::abs(weight));

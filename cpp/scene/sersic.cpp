@@ -2,6 +2,7 @@
 #include "scene/sersic.hpp"
 
 #include "error/error.hpp"
+#include "numerics/gamma.hpp"
 #include "scene/hankel.hpp"
 
 #include <algorithm>
@@ -21,7 +22,7 @@ constexpr double pi = std::numbers::pi;
 double incomplete_gamma(double a, double x) {
     if (x <= 0)
         return 0;
-    const double front = std::exp(a * std::log(x) - x - std::lgamma(a));
+    const double front = std::exp(a * std::log(x) - x - log_of_gamma(a));
     constexpr double small = std::numeric_limits<double>::epsilon() / 4;
     if (x < a + 1) {
         double term = 1 / a, sum = term;
@@ -49,7 +50,7 @@ double incomplete_gamma(double a, double x) {
 double half_light(double n) {
     double b = 2 * n - 1.0 / 3 + 0.01 / n;
     for (int i = 0; i < 20; ++i) {
-        const double slope = std::exp((2 * n - 1) * std::log(b) - b - std::lgamma(2 * n));
+        const double slope = std::exp((2 * n - 1) * std::log(b) - b - log_of_gamma(2 * n));
         const double change = (incomplete_gamma(2 * n, b) - 0.5) / slope;
         b -= change;
         if (std::abs(change) < 4 * std::numeric_limits<double>::epsilon() * b)
@@ -136,9 +137,9 @@ double SersicTable::absolute_integral(double from, double to) const {
 
 Sersic::Sersic(double index)
     : index_(checked(index)), b_(half_light(index)),
-      centre_(std::exp(2 * index * std::log(b_) - std::lgamma(2 * index)) / (2 * pi * index)),
+      centre_(std::exp(2 * index * std::log(b_) - log_of_gamma(2 * index)) / (2 * pi * index)),
       mean_square_radius_(
-          std::exp(std::lgamma(4 * index) - std::lgamma(2 * index) - 2 * index * std::log(b_))),
+          std::exp(log_of_gamma(4 * index) - log_of_gamma(2 * index) - 2 * index * std::log(b_))),
       table_(index, b_, mean_square_radius_) {}
 
 double Sersic::brightness(double r) const {

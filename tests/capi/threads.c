@@ -64,6 +64,50 @@ static void check_same(const struct star *a, const struct star *b) {
     CHECK(a->sigma == b->sigma && a->e1 == b->e1 && a->ee50 == b->ee50);
 }
 
+/* A scene whose plan, PSFs and far light so many threads make. */
+static void render_by(int number, double *pixels) {
+    enum { faint = 60 };
+    double x[faint + 1], y[faint + 1], flux[faint + 1];
+    wfpsf_instrument *roman = NULL;
+    wfpsf_sed *sed = NULL;
+    wfpsf_catalogue *catalogue = NULL;
+    wfpsf_options *options = NULL;
+    wfpsf_scene *scene = NULL;
+    wfpsf_image *image = wrap_strided(pixels, side, side, 1, side, 1);
+    for (int i = 0; i <= faint; ++i) {
+        x[i] = 1000 + (17 * i) % side + 0.01 * i;
+        y[i] = 1000 + (29 * i) % side - 0.01 * i;
+        flux[i] = i == 0 ? 1e6 : 200 + i;
+    }
+    CHECK_OK(wfpsf_instrument_create("roman-c9", &roman));
+    CHECK_OK(wfpsf_sed_create_black_body(5000, &sed));
+    CHECK_OK(
+        wfpsf_catalogue_create(WFPSF_POSITIONS_DETECTOR, WFPSF_BRIGHTNESS_ELECTRONS, &catalogue));
+    CHECK_OK(wfpsf_catalogue_add_colour(catalogue, 0, sed, NULL));
+    CHECK_OK(wfpsf_catalogue_add_stars(catalogue, faint + 1, x, y, flux, NULL));
+    CHECK_OK(wfpsf_options_create(&options));
+    CHECK_OK(wfpsf_options_set_real(options, WFPSF_OPTION_SCENE_NOISE, 0.3));
+    CHECK_OK(wfpsf_options_set_real(options, WFPSF_OPTION_SCENE_VARIANCE, 100));
+    CHECK_OK(wfpsf_options_set_integer(options, WFPSF_OPTION_THREADS, number));
+    CHECK_OK(
+        wfpsf_scene_create(roman, NULL, "J129", 7, catalogue, image, 1000, 1000, options, &scene));
+    CHECK_OK(wfpsf_scene_render(scene, options, image, NULL));
+    wfpsf_scene_destroy(scene);
+    wfpsf_options_destroy(options);
+    wfpsf_catalogue_destroy(catalogue);
+    wfpsf_sed_destroy(sed);
+    wfpsf_image_destroy(image);
+    wfpsf_instrument_destroy(roman);
+}
+
+static void check_scenes(void) {
+    static double by_one[side * side], by_three[side * side];
+    render_by(1, by_one);
+    render_by(3, by_three);
+    CHECK(are_equal(by_one, by_three, side * side));
+    CHECK(by_one[0] > 1e4);
+}
+
 int main(void) {
     pthread_t started[threads];
     int numbers[threads];
@@ -87,6 +131,7 @@ int main(void) {
         for (int star = 0; star < stars; ++star)
             check_same(&together[i][star], &alone[star]);
 
+    check_scenes();
     wfpsf_ipc_kernel_destroy(shared_kernel);
     wfpsf_psf_destroy(shared_psf);
     wfpsf_instrument_destroy(instrument);
