@@ -54,12 +54,12 @@ ArchiveWriter::ArchiveWriter(const std::string &path, const std::string &version
 void ArchiveWriter::write(std::span<const std::byte> bytes) {
     constexpr size_t enough = size_t{1} << 20;
     sum_.add(bytes);
-    if (bytes.size() < enough)
-        std::ranges::copy(bytes, std::back_inserter(waiting_));
-    if (waiting_.size() >= enough || bytes.size() >= enough)
+    if (waiting_.size() + bytes.size() > enough)
         flush();
-    if (bytes.size() >= enough)
+    if (bytes.size() > enough)
         file_.append(bytes);
+    else
+        std::ranges::copy(bytes, std::back_inserter(waiting_));
 }
 
 void ArchiveWriter::flush() {

@@ -105,7 +105,6 @@ void VaryingLight::expand(const OpticsAt &optics, const Manners &manners) {
     const double little = share_of_modes * settings_.eps * plain_.faintest_peak;
     while (mode_.size() > 1 && left_out.but_for(mode_.size() - 1) < little)
         mode_.pop_back();
-    left_out_ = share_of_stars * settings_.eps * plain_.faintest_peak;
     error_ = terms.error() + interpolation_error_ + share_of_stars * settings_.eps;
 }
 

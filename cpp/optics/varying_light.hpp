@@ -66,8 +66,8 @@ class VaryingLight {
 
     template <class Self, class Archive> static void archived(Self &self, Archive &archive) {
         archive(self.settings_, self.region_, self.degree_, self.exact_psfs_, self.error_,
-                self.interpolation_error_, self.error_beyond_, self.falls_, self.left_out_,
-                self.plain_, self.mode_);
+                self.interpolation_error_, self.error_beyond_, self.falls_, self.plain_,
+                self.mode_);
     }
 
   private:
@@ -92,10 +92,9 @@ class VaryingLight {
     int64_t exact_psfs_ = 0;
     double error_ = 0, interpolation_error_ = 0;
     double error_beyond_ = 0; // of the interpolation, where no higher degree is needed
-    std::vector<double>
-        falls_;           // what errors may be at 0, 1, ... native pixels, of that at the core
-    double left_out_ = 0; // of stars, if nothing else is asked for
-    Field plain_;         // what the fields of all places have in common
+    // What errors may be at 0, 1, ... native pixels, of that at the core.
+    std::vector<double> falls_;
+    Field plain_;                 // what the fields of all places have in common
     std::vector<LightMode> mode_; // the brightest first
 };
 

@@ -36,17 +36,20 @@ double far_variation(std::span<const FarLight> at_places) {
         return light;
     };
     const Plane<double> first = image(at_places[0]);
+    std::vector<std::pair<int64_t, int64_t>> circle;
     double most = 0, brightest = 0;
-    for (const FarLight &far : at_places) {
+    for (int64_t y = 0; y < first.ny(); ++y)
+        for (int64_t x = 0; x < first.nx(); ++x)
+            if (std::abs(
+                    std::hypot(static_cast<double>(x) - middle, static_cast<double>(y) - middle) -
+                    r) < 0.5) {
+                circle.emplace_back(x, y);
+                brightest = std::max(brightest, first(x, y));
+            }
+    for (const FarLight &far : at_places.subspan(1)) {
         const Plane<double> other = image(far);
-        for (int64_t y = 0; y < first.ny(); ++y)
-            for (int64_t x = 0; x < first.nx(); ++x)
-                if (std::abs(std::hypot(static_cast<double>(x) - middle,
-                                        static_cast<double>(y) - middle) -
-                             r) < 0.5) {
-                    brightest = std::max(brightest, first(x, y));
-                    most = std::max(most, std::abs(first(x, y) - other(x, y)));
-                }
+        for (const auto &[x, y] : circle)
+            most = std::max(most, std::abs(first(x, y) - other(x, y)));
     }
     return most / brightest;
 }

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <memory>
 
@@ -110,23 +111,18 @@ std::vector<SourceTruth> truth_of(const SceneOptics &optics, const ScenePlan &pl
     }
     const Measuring measuring(plan, options);
     std::vector<SourceTruth> truths(sources.size());
-    const auto count = static_cast<int64_t>(sources.size());
-    const auto bands = std::clamp<int64_t>(options.threads, 1, std::max<int64_t>(count, 1));
-    for_each_band(bands, [&](int64_t band) {
-        for (int64_t i = count * band / bands; i < count * (band + 1) / bands; ++i) {
-            const PlacedSource &source = sources[static_cast<size_t>(i)];
-            const Region &region = optics.region;
-            const Psf psf = models[static_cast<size_t>(source.colour)]->at(
-                std::clamp(source.x, region.x0, region.x1),
-                std::clamp(source.y, region.y0, region.y1));
-            // The source in the middle native pixel, where it stands in its own.
-            const int64_t side = side_of(source, plan, optics.pixel_scale_arcsec);
-            const int64_t middle = side / 2;
-            const auto half = static_cast<double>(middle);
-            const double x0 = std::round(source.x) - half, y0 = std::round(source.y) - half;
-            const Plane<double> image = image_of(source, psf, optics, plan, side, x0, y0);
-            truths[static_cast<size_t>(i)] = measuring.of(source, image, x0, y0);
-        }
+    share_out(std::ssize(sources), options.threads, [&](int64_t i) {
+        const PlacedSource &source = sources[static_cast<size_t>(i)];
+        const Region &region = optics.region;
+        const Psf psf = models[static_cast<size_t>(source.colour)]->at(
+            std::clamp(source.x, region.x0, region.x1), std::clamp(source.y, region.y0, region.y1));
+        // The source in the middle native pixel, where it stands in its own.
+        const int64_t side = side_of(source, plan, optics.pixel_scale_arcsec);
+        const int64_t middle = side / 2;
+        const auto half = static_cast<double>(middle);
+        const double x0 = std::round(source.x) - half, y0 = std::round(source.y) - half;
+        const Plane<double> image = image_of(source, psf, optics, plan, side, x0, y0);
+        truths[static_cast<size_t>(i)] = measuring.of(source, image, x0, y0);
     });
     return truths;
 }
